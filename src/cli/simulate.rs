@@ -38,7 +38,8 @@ pub struct Simulate {
     /// Also give the position of a frame's origin, or of a point beside it in its axes, e.g. --point left+0.5,0.2
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     point: Vec<String>,
-    /// Let joints come back from their limits with this part of their speed, instead of ending there
+    /// Let joints come back from their limits with this part of their speed, and rest on them once they are slow, instead
+    /// of ending there; 0 lets them rest at once
     #[arg(long, value_name = "FACTOR", value_parser = |text: &str| within(text, 0.0, 1.0))]
     #[arg(allow_negative_numbers = true)]
     restitution: Option<f64>,

@@ -30,7 +30,8 @@ pub struct SimulationSettings {
     pub rows: usize,
     /// Error of one step, relative to the values, in rad, characteristic lengths and these per s.
     pub tolerance: f64,
-    /// Part of its speed with which a joint comes back from a limit; `None` ends the simulation there.
+    /// Part of its speed with which a joint comes back from a limit, and rests on it once it is slow; `None` ends the
+    /// simulation there.
     pub restitution: Option<f64>,
     /// True if the motion goes on straight through configurations at which branches of motion meet.
     pub through: bool,
@@ -153,6 +154,20 @@ pub enum Happened {
     },
     /// Friction no longer holds the joint of that name.
     Slips {
+        /// The joint.
+        joint: String,
+    },
+    /// The joint of that name rests on a limit.
+    Rests {
+        /// The joint.
+        joint: String,
+        /// Its speed before, in m/s or rad/s.
+        speed: f64,
+        /// Kinetic energy lost, in J.
+        loss: f64,
+    },
+    /// The joint of that name leaves the limit on which it rested.
+    Leaves {
         /// The joint.
         joint: String,
     },

@@ -146,9 +146,13 @@ impl<'a> Dynamics<'a> {
         self.slides = slides.to_vec();
     }
 
-    /// Accelerations of all unknowns, dimensionless, as last evaluated.
-    pub fn accelerations(&self) -> &[f64] {
-        self.chart.motion.known()[1]
+    /// Accelerations of all unknowns, dimensionless, where it was last evaluated, for those of the independent coordinates
+    /// and of the driven ones.
+    pub fn accelerations(&mut self, found: &[f64], driven: &[f64]) -> &[f64] {
+        let mut given = vec![0.0; self.chart.coordinates.len()];
+        let both = found.iter().chain(driven);
+        given.iter_mut().zip(both).for_each(|(to, x)| *to = *x);
+        self.chart.motion.accelerations(&given)
     }
 
     /// The configuration last closed.

@@ -148,6 +148,13 @@ fn events(events: &[SimulationEvent]) -> Section {
         }
         Happened::Sticks { joint } => format!("{joint} rests, held by friction"),
         Happened::Slips { joint } => format!("{joint} slips"),
+        Happened::Rests { joint, loss, .. } => {
+            format!(
+                "{joint} comes to rest on its limit; {} J lost",
+                number(*loss)
+            )
+        }
+        Happened::Leaves { joint } => format!("{joint} leaves its limit"),
         Happened::Singular => "branches of motion meet; it goes straight through".into(),
     };
     let table = Table::of(events);

@@ -29,8 +29,8 @@ pub(super) struct Run<'a, 'd> {
     laws: Laws,
     /// Freedoms at the start.
     freedoms: usize,
-    /// Joints that friction holds.
-    stuck: Vec<usize>,
+    /// Joints that do not move now.
+    stuck: Vec<Stuck>,
     /// For each friction the direction in which its joint slides, 0 where it does not.
     slides: Vec<f64>,
     /// Points and frames of platforms whose positions are given.
@@ -43,6 +43,14 @@ pub(super) struct Run<'a, 'd> {
     steps: usize,
     /// The largest margin of the closure equations so far.
     widest: f64,
+}
+
+/// A joint that does not move although it could: friction holds it, or it rests on a limit.
+#[derive(Clone, Copy, PartialEq)]
+struct Stuck {
+    joint: usize,
+    /// The side of its limit, 1 of the upper one and −1 of the lower one.
+    limit: Option<f64>,
 }
 
 /// The meaning of a state.
@@ -254,8 +262,8 @@ impl<'a, 'd> Run<'a, 'd> {
                 Some((_, EarliestEvent::Friction { friction })) => {
                     Some(self.stick_or_slip(&mut integrator, time, friction, &rates))
                 }
-                Some((_, EarliestEvent::Limit { joint, limit })) => {
-                    Some(self.bounce(&mut integrator, time, (joint, limit), &rates, &instant))
+                Some((_, EarliestEvent::Limit(limit))) => {
+                    Some(self.bounce(&mut integrator, time, limit, &rates, &instant))
                 }
             };
             match ends {

@@ -4,10 +4,7 @@ use super::*;
 
 /// The earliest event within a step.
 pub(super) enum EarliestEvent {
-    Limit {
-        joint: usize,
-        limit: f64,
-    },
+    Limit(JointLimit),
     Singular,
     /// The joint of that friction comes to rest, or, without one, a joint that friction held slips.
     Friction {
@@ -15,10 +12,17 @@ pub(super) enum EarliestEvent {
     },
 }
 
+/// A joint at its upper limit, side 1, or at its lower one, −1.
+#[derive(Clone, Copy)]
+pub(super) struct JointLimit {
+    joint: usize,
+    limit: f64,
+    side: f64,
+}
+
 /// The end of a smooth piece of the motion.
 enum Guard {
-    /// A joint at its upper limit, 1, or its lower one, −1.
-    Limit(usize, f64, f64),
+    Limit(JointLimit),
     /// The joint of that friction turns against the direction in which it slides.
     Rest(usize),
     /// Friction no longer holds a joint.
@@ -26,31 +30,35 @@ enum Guard {
 }
 
 impl Run<'_, '_> {
-    /// Comes back from a limit, or ends there.
+    /// Comes back from a limit, rests on it, or ends there.
     pub(super) fn bounce(
         &mut self,
         integrator: &mut Integrator,
         time: f64,
-        (joint, limit): (usize, f64),
+        JointLimit { joint, limit, side }: JointLimit,
         rates: &[f64],
         instant: &Accelerated,
     ) -> Option<SimulationEnd> {
         /// Slower than this, in rad and characteristic lengths per s, a joint rests on its limit.
         const AT_REST: f64 = 1e-4;
-        let of = Coordinate::Joint(joint);
+        let (place, of) = (joint, Coordinate::Joint(joint));
         let name = self.mechanism.joints()[joint].name.clone();
         let mut normal = self.dynamics.rates_of(of);
         let speed = dot(&normal, rates);
         let free = self.free();
         normal.truncate(free);
         let pushed = Decomposition::of(free, free, &instant.mass).solve(&normal);
-        let restitution = self.settings.restitution.unwrap_or(0.0);
-        if speed.abs() * restitution < AT_REST * of.scale(self.mechanism) {
-            return Some(SimulationEnd::Limit {
-                joint: name,
-                limit,
-                unit: SiUnit::of_coordinate(of.is_angle(self.mechanism)),
-            });
+        let end = || {
+            let joint = self.mechanism.joints()[joint].name.clone();
+            let unit = SiUnit::of_coordinate(of.is_angle(self.mechanism));
+            Some(SimulationEnd::Limit { joint, limit, unit })
+        };
+        let Some(mut restitution) = self.settings.restitution else {
+            return end();
+        };
+        let rests = speed.abs() * restitution < AT_REST * of.scale(self.mechanism);
+        if rests {
+            restitution = 0.0;
         }
         let inertia = 1.0 / dot(&normal, &pushed);
         let mut rates = rates.to_vec();
@@ -60,15 +68,39 @@ impl Run<'_, '_> {
             &pushed,
         );
         let loss = 0.5 * (1.0 - restitution * restitution) * speed * speed * inertia;
-        self.energy.lost += loss;
-        let event = Happened::Impact {
-            joint: name,
-            speed: speed.abs(),
-            loss,
+        let (joint, speed) = (name, speed.abs());
+        let event = match rests {
+            true => {
+                let limit = Some(side);
+                let Some(others) = self.stick(
+                    Stuck {
+                        joint: place,
+                        limit,
+                    },
+                    &rates,
+                ) else {
+                    return end();
+                };
+                self.settle(time, others);
+                Happened::Rests { joint, speed, loss }
+            }
+            false => {
+                let at = self.dynamics.configuration().clone();
+                self.restate(&at, &rates);
+                Happened::Impact { joint, speed, loss }
+            }
         };
+        self.energy.lost += loss;
         self.events.push(SimulationEvent { time, event });
-        let at = self.dynamics.configuration().clone();
-        self.restate(&at, &rates);
+        self.resume(integrator, time)
+    }
+
+    /// Goes on from the state; returns an end if that is impossible.
+    pub(super) fn resume(
+        &mut self,
+        integrator: &mut Integrator,
+        time: f64,
+    ) -> Option<SimulationEnd> {
         let state = self.state.clone();
         match integrator.start(&mut self.equations(), time, &state) {
             Ok(()) => None,
@@ -128,11 +160,12 @@ impl Run<'_, '_> {
         let joints = self.mechanism.joints().iter().enumerate();
         let limits = joints
             .filter_map(|(joint, of)| of.limits.map(|limits| (joint, limits)))
+            .filter(|(joint, _)| self.stuck.iter().all(|of| of.joint != *joint))
             .flat_map(|(joint, (low, high))| [(joint, low, -1.0), (joint, high, 1.0)]);
         let slides = self.slides.iter().enumerate();
         let slides = slides.filter(|(_, sign)| **sign != 0.0);
         let guards: Vec<Guard> = limits
-            .map(|(joint, limit, side)| Guard::Limit(joint, limit, side))
+            .map(|(joint, limit, side)| Guard::Limit(JointLimit { joint, limit, side }))
             .chain(slides.map(|(friction, _)| Guard::Rest(friction)))
             .chain((!self.stuck.is_empty()).then_some(Guard::Slip))
             .collect();
@@ -171,9 +204,7 @@ impl Run<'_, '_> {
                     }
                 }
                 let (time, met) = match *guard {
-                    Guard::Limit(joint, limit, _) => {
-                        (inside, EarliestEvent::Limit { joint, limit })
-                    }
+                    Guard::Limit(limit) => (inside, EarliestEvent::Limit(limit)),
                     Guard::Rest(friction) => {
                         let friction = Some(friction);
                         (inside, EarliestEvent::Friction { friction })
@@ -184,16 +215,45 @@ impl Run<'_, '_> {
                     first = Some((time, met));
                 }
             }
-            if first.is_some() {
-                return first;
+            if let Some((time, met)) = first {
+                let guard = match met {
+                    EarliestEvent::Limit(limit) => Guard::Limit(limit),
+                    EarliestEvent::Friction {
+                        friction: Some(friction),
+                    } => Guard::Rest(friction),
+                    _ => return Some((time, met)),
+                };
+                return Some((
+                    self.sharpened(integrator, &guard, time, [before, after])?,
+                    met,
+                ));
             }
             last = now;
         }
         None
     }
 
-    /// The distance of a joint beyond a limit within the last step, and its rate; or a number that is positive once friction
-    /// begins or ceases to hold a joint.
+    /// The time of an event by Newton's method on states as accurate as those at the ends of steps.
+    fn sharpened(
+        &mut self,
+        integrator: &mut Integrator,
+        guard: &Guard,
+        mut time: f64,
+        [before, after]: [f64; 2],
+    ) -> Option<f64> {
+        const STEPS: usize = 3;
+        for _ in 0..STEPS {
+            let state = integrator.reached(&mut self.equations(), time);
+            let [out, rate] = self.out(guard, time, &state)?;
+            if rate <= 0.0 {
+                break;
+            }
+            time = (time - out / rate).clamp(before, after);
+        }
+        Some(time)
+    }
+
+    /// As [`Run::out`], within the last step.
     fn beyond(
         &mut self,
         integrator: &mut Integrator,
@@ -201,17 +261,26 @@ impl Run<'_, '_> {
         time: f64,
     ) -> Option<[f64; 2]> {
         let state = integrator.within(time);
-        let (rates, _) = at(self.dynamics, &self.laws, time, &state)?;
+        self.out(guard, time, &state)
+    }
+
+    /// The distance of a joint beyond a limit in a state, or its speed against the direction in which it slides, with its
+    /// rate; or a number that is positive once a joint no longer sticks.
+    fn out(&mut self, guard: &Guard, time: f64, state: &[f64]) -> Option<[f64; 2]> {
+        let (rates, instant) = at(self.dynamics, &self.laws, time, state)?;
         let scales = &self.mechanism.dimensions().joint_scales;
         let rate = |joint: usize| self.dynamics.rates()[joint] * scales[joint];
         Some(match *guard {
-            Guard::Limit(joint, limit, side) => {
+            Guard::Limit(JointLimit { joint, limit, side }) => {
                 let value = self.dynamics.configuration().joints[joint];
                 [side * (value - limit), side * rate(joint)]
             }
             Guard::Rest(friction) => {
                 let joint = self.dynamics.frictions()[friction].joint;
-                [-self.slides[friction] * rate(joint), 0.0]
+                let rate = rate(joint);
+                let [_, driven] = self.laws.rates(time, state);
+                let all = self.dynamics.accelerations(&instant.accelerations, &driven);
+                [rate, all[joint] * scales[joint]].map(|x| -self.slides[friction] * x)
             }
             Guard::Slip => match self.slipping(time, &rates) {
                 Some(slip) => [slip.pace, 0.0],

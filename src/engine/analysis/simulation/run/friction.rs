@@ -1,17 +1,24 @@
-//! Friction that holds joints and lets them slip.
+//! Joints that stick, by friction or on a limit, and go on.
 
 use super::*;
 use crate::algebra::Expression;
 use crate::mechanism::Friction;
 
-/// A joint that friction no longer holds.
+/// A joint that no longer sticks.
 pub(super) struct Slip<'a> {
-    joint: usize,
-    /// Its dimensionless acceleration in the direction in which it slips.
+    stuck: Stuck,
+    /// Its dimensionless acceleration in the direction in which it goes.
     pub pace: f64,
     slides: Vec<f64>,
     dynamics: Dynamics<'a>,
     rates: Vec<f64>,
+}
+
+impl Stuck {
+    /// Friction holds that joint.
+    fn rubbing(joint: usize) -> Self {
+        Stuck { joint, limit: None }
+    }
 }
 
 impl<'a> Run<'a, '_> {
@@ -33,16 +40,16 @@ impl<'a> Run<'a, '_> {
         let mut rates = rates.to_vec();
         for (i, friction) in frictions.iter().enumerate() {
             if self.slides[i] == 0.0
-                && let Some(others) = self.stick(friction.joint, &rates)
+                && let Some(others) = self.stick(Stuck::rubbing(friction.joint), &rates)
             {
                 rates = others;
             }
         }
         self.settle(0.0, rates);
-        let held = self.stuck.iter().map(|joint| SimulationEvent {
+        let held = self.stuck.iter().map(|of| SimulationEvent {
             time: 0.0,
             event: Happened::Sticks {
-                joint: self.mechanism.joints()[*joint].name.clone(),
+                joint: self.mechanism.joints()[of.joint].name.clone(),
             },
         });
         self.events.extend(held);
@@ -62,35 +69,32 @@ impl<'a> Run<'a, '_> {
         let sticks = rests.map(|joint| Happened::Sticks { joint: name(joint) });
         if let (Some(friction), Some(joint)) = (friction, rests) {
             self.slides[friction] = 0.0;
-            if let Some(others) = self.stick(joint, &rates) {
+            if let Some(others) = self.stick(Stuck::rubbing(joint), &rates) {
                 rates = others;
             }
         }
         let slips = self.settle(time, rates);
         let event = match (sticks, slips) {
-            (None, Some(joint)) => Some(Happened::Slips {
-                joint: self.mechanism.joints()[joint].name.clone(),
-            }),
+            (None, Some(Stuck { joint, limit: None })) => {
+                Some(Happened::Slips { joint: name(joint) })
+            }
+            (None, Some(Stuck { joint, .. })) => Some(Happened::Leaves { joint: name(joint) }),
             // a joint that turns back does not rest
             (Some(_), Some(_)) => None,
             (sticks, None) => sticks,
         };
         let event = event.map(|event| SimulationEvent { time, event });
         self.events.extend(event);
-        let state = self.state.clone();
-        match integrator.start(&mut self.equations(), time, &state) {
-            Ok(()) => None,
-            Err(_) => Some(SimulationEnd::Stuck),
-        }
+        self.resume(integrator, time)
     }
 
-    /// Releases held joints that slip, and goes on from there; returns the first of them.
-    fn settle(&mut self, time: f64, mut rates: Vec<f64>) -> Option<usize> {
+    /// Releases joints that no longer stick, and goes on from there; returns the first of them.
+    pub(super) fn settle(&mut self, time: f64, mut rates: Vec<f64>) -> Option<Stuck> {
         let mut first = None;
         while let Some(slip) = self.slipping(time, &rates) {
-            first = first.or(Some(slip.joint));
+            first = first.or(Some(slip.stuck));
             let mut stuck = self.stuck.clone();
-            stuck.retain(|joint| *joint != slip.joint);
+            stuck.retain(|of| *of != slip.stuck);
             self.slides = slip.slides;
             self.take(slip.dynamics, stuck);
             rates = slip.rates;
@@ -103,11 +107,11 @@ impl<'a> Run<'a, '_> {
 
     /// Holds a joint where it is, and lets friction rest in all joints that then do. Returns the rates of the coordinates
     /// left, or nothing if the joint rests already.
-    fn stick(&mut self, joint: usize, rates: &[f64]) -> Option<Vec<f64>> {
-        if !self.moves(joint) {
+    pub(super) fn stick(&mut self, held: Stuck, rates: &[f64]) -> Option<Vec<f64>> {
+        if !self.moves(held.joint) {
             return None;
         }
-        let stuck = [&self.stuck[..], &[joint]].concat();
+        let stuck = [&self.stuck[..], &[held]].concat();
         let dynamics = self.held(&stuck)?;
         let rates = self.carried(&dynamics, rates);
         self.take(dynamics, stuck);
@@ -127,8 +131,8 @@ impl<'a> Run<'a, '_> {
     }
 
     /// The equations with these joints held, at the configuration last closed.
-    fn held(&self, stuck: &[usize]) -> Option<Dynamics<'a>> {
-        let joints = stuck.iter().map(|joint| Coordinate::Joint(*joint));
+    fn held(&self, stuck: &[Stuck]) -> Option<Dynamics<'a>> {
+        let joints = stuck.iter().map(|of| Coordinate::Joint(of.joint));
         let joints: Vec<Coordinate> = joints.collect();
         self.dynamics
             .driving(self.settings.speeds.len(), &joints)
@@ -143,11 +147,11 @@ impl<'a> Run<'a, '_> {
             .collect()
     }
 
-    fn take(&mut self, dynamics: Dynamics<'a>, stuck: Vec<usize>) {
+    fn take(&mut self, dynamics: Dynamics<'a>, stuck: Vec<Stuck>) {
         *self.dynamics = dynamics;
         self.laws.speeds.truncate(self.settings.speeds.len());
-        let held = stuck.iter().map(|joint| Speed {
-            coordinate: Coordinate::Joint(*joint),
+        let held = stuck.iter().map(|of| Speed {
+            coordinate: Coordinate::Joint(of.joint),
             rate: Expression::number(0.0),
             parameters: Vec::new(),
         });
@@ -156,14 +160,15 @@ impl<'a> Run<'a, '_> {
         self.stuck = stuck;
     }
 
-    /// A held joint that slips at the configuration last closed, with these rates: with all friction against a motion of it
-    /// in one direction it is accelerated in that direction.
+    /// A joint that no longer sticks at the configuration last closed, with these rates: with all friction against a motion
+    /// of it in one direction, away from a limit if it rests on one, it is accelerated in that direction.
     pub(super) fn slipping(&mut self, time: f64, rates: &[f64]) -> Option<Slip<'a>> {
         /// Slower than this, in rad and characteristic lengths per s², nothing begins to move.
         const BEGINS: f64 = 1e-10;
         /// Less than this part of what could move does not.
         const STILL: f64 = 1e-9;
-        for (k, &joint) in self.stuck.iter().enumerate() {
+        for (k, &stuck) in self.stuck.iter().enumerate() {
+            let joint = stuck.joint;
             let mut others = self.stuck.clone();
             others.remove(k);
             let mut dynamics = self.held(&others)?;
@@ -176,13 +181,14 @@ impl<'a> Run<'a, '_> {
             let pushed = mass.solve(&along(&dynamics, joint));
             let driven = self.settings.speeds.iter().map(|of| of.at(time)[1]);
             let driven: Vec<f64> = driven.chain(others.iter().map(|_| 0.0)).collect();
-            for side in [1.0, -1.0] {
+            let sides = stuck.limit.map_or([1.0, -1.0], |side| [-side; 2]);
+            for side in sides {
                 let sign = |(of, slides): (&Friction, &f64)| {
                     let slope = along(&dynamics, of.joint);
                     let rate = dot(&slope, &pushed);
                     let rests = rate.abs() <= STILL * norm(&pushed) * norm(&slope);
                     match *slides {
-                        0.0 if rests || others.contains(&of.joint) => 0.0,
+                        0.0 if rests || others.iter().any(|other| other.joint == of.joint) => 0.0,
                         0.0 => side * rate.signum(),
                         slides => slides,
                     }
@@ -190,13 +196,13 @@ impl<'a> Run<'a, '_> {
                 let slides = dynamics.frictions().iter().zip(&self.slides);
                 let slides: Vec<f64> = slides.map(sign).collect();
                 dynamics.slide(&slides);
-                if dynamics.evaluate(&rates, &driven, time).is_none() {
+                let Some(now) = dynamics.evaluate(&rates, &driven, time) else {
                     continue;
-                }
-                let pace = side * dynamics.accelerations()[joint];
+                };
+                let pace = side * dynamics.accelerations(&now.accelerations, &driven)[joint];
                 if pace > BEGINS {
                     return Some(Slip {
-                        joint,
+                        stuck,
                         pace,
                         slides,
                         dynamics,
