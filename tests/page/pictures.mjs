@@ -97,6 +97,14 @@ const tests = {
     // one ghost at a time, under the pointer
     await page.hover("#mode-list li:last-child > button");
     check((await page.evaluate(() => globalThis.picture.scenery.ghosts.length)) === 1, "there is not one ghost");
+    // with the mechanism beside it
+    const outside = await page.evaluate(() => {
+      const { picture, linkwork } = globalThis;
+      const { clientWidth, clientHeight } = picture.stage.canvas;
+      const all = [linkwork.frame.scene, ...picture.scenery.ghosts].flatMap((scene) => scene.bodies.flatMap((body) => body.corners));
+      return all.map((at) => picture.pixel(at)).filter(([x, y]) => !(x > 0 && x < clientWidth && y > 0 && y < clientHeight)).length;
+    });
+    check(outside === 0, `${outside} corners are outside the picture beside a ghost`);
   },
 
   async "the gallery is in topics, is searched, and folds cuts of one mechanism together"() {

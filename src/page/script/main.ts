@@ -157,6 +157,11 @@ class Picture {
     this.stage.zoom(0.75);
   }
 
+  /** Makes room for other configurations beside the one that is shown. */
+  room(scenes: Scene[]) {
+    this.stage.include([...(this.scene ? points(this.scene) : []), ...scenes.flatMap(points)]);
+  }
+
   /** Of the forces that are shown. */
   private get tips(): Vector3[] {
     const { arrows } = this.scenery;
@@ -225,7 +230,7 @@ async function begin() {
     const { mechanism } = model;
     document.title = `${mechanism!.name} – linkwork`;
     find("name").textContent = mechanism!.name;
-    find("source").textContent = mechanism!.source ?? "";
+    find("source").textContent = find("source").title = mechanism!.source ?? "";
   });
   model.onMoved(() => {
     sliders.show(model.mechanism!, model.frame!);
@@ -241,7 +246,7 @@ async function begin() {
   });
   const modes = new ModeList(model, (scenes) => {
     picture.scenery.ghosts = scenes;
-    if (scenes.length) picture.stage.include(scenes.flatMap(points));
+    if (scenes.length) picture.room(scenes);
     picture.draw();
   });
   const motion = new Motion(

@@ -51,7 +51,7 @@ export class ModeList {
     if (!found) return;
     const groups = poses(found);
     const several = groups.length < found.states.length;
-    find("pose-count").textContent = several ? `${groups.length} poses of the platform; the others of each differ in its legs only.` : "";
+    find("pose-count").textContent = several ? "Each pose is listed once; its variants differ in the legs only." : "";
     const waiting: [HTMLCanvasElement, Scene][] = [];
     find("mode-list").replaceChildren(...groups.map(({ modes }, k) => {
       const [first, ...others] = modes as [number, ...number[]];
