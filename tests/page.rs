@@ -81,6 +81,15 @@ fn mechanisms_are_drawn_in_the_page() {
     browse("drawing.mjs");
 }
 
+#[test]
+fn everything_in_the_page_is_read_and_reached() {
+    let rules = root().join("tests/page/node_modules/axe-core");
+    match rules.exists() {
+        true => browse("accessible.mjs"),
+        false => println!("skipped: run `npm ci --prefix tests/page` first"),
+    }
+}
+
 /// What is answered to a request.
 fn answered(address: &str, request: &str) -> String {
     let mut stream = TcpStream::connect(address).unwrap();
