@@ -324,11 +324,18 @@ const tests = {
   async "a picture and a DXF outline stand behind the drawing, to scale"() {
     const page = await begun();
     const dxf = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES",
-      "0", "LINE", "10", "0", "20", "0", "11", "80", "21", "0", "0", "CIRCLE", "10", "40", "20", "20", "40", "10", "0", "ENDSEC", "0", "EOF"].join("\n");
+      "0", "LINE", "10", "0", "20", "0", "11", "80", "21", "0", "0", "CIRCLE", "10", "40", "20", "20", "40", "10",
+      // half a circle below its chord; a parabola; a text
+      "0", "LWPOLYLINE", "70", "0", "10", "0", "20", "0", "42", "1", "10", "40", "20", "0",
+      "0", "SPLINE", "71", "2", ...[0, 0, 0, 1, 1, 1].flatMap((knot) => ["40", String(knot)]), "10", "0", "20", "0", "10", "10", "20", "20", "10", "20", "20", "0",
+      "0", "TEXT", "1", "M8", "0", "ENDSEC", "0", "EOF"].join("\n");
     const path = join(folder, "outline.dxf");
     writeFileSync(path, dxf);
     await (await page.$("#background-file")).uploadFile(path);
     await page.waitForSelector("#board path.background");
+    const middles = await page.evaluate(() => globalThis.desk.backdrop.outline.lines.slice(2).map((line) => line[line.length >> 1].map((x) => 1000 * x)));
+    for (const [k, at] of [[20, -20], [10, 10]].entries()) check(apart(middles[k], at) < 1e-9, `the middle of curve ${k + 1} is at ${middles[k]}`);
+    check(/Not drawn: TEXT\./.test(await page.$eval("#desk-said", (of) => of.textContent)), "what is not drawn is not said");
     const d = await page.$eval("#board path.background", (outline) => outline.getAttribute("d"));
     const [x1, y1, x2] = d.match(/[\d.-]+/g).map(Number);
     const wanted = [await pixel(page, [0, 0]), await pixel(page, [80, 0])];

@@ -38,11 +38,11 @@ export class Backdrop {
     const { board } = this.desk;
     const middle = board.place(centre(board.svg));
     if (/\.dxf$/i.test(file.name)) {
-      this.outline = outline(await file.text());
-      if (!this.outline.lines.length) {
-        this.outline = null;
-        return this.desk.say("The DXF file has no lines, circles, arcs or polylines.");
-      }
+      const found = outline(await file.text());
+      const left = found.others.length ? ` Not drawn: ${found.others.join(", ")}.` : "";
+      if (!found.lines.length) return this.desk.say(`The DXF file has no lines or curves.${left}`);
+      this.outline = found;
+      this.desk.say(`The outline is to scale; Scale changes it.${left}`);
     } else {
       const href = URL.createObjectURL(file);
       const shown = new Image();
@@ -108,7 +108,7 @@ export class Backdrop {
   private scaleBy(factor: number, about: Point) {
     const scaled = ([x, y]: Point): Point => [about[0] + factor * (x - about[0]), about[1] + factor * (y - about[1])];
     if (this.image) this.image = { ...this.image, at: scaled(this.image.at), size: [factor * this.image.size[0], factor * this.image.size[1]] };
-    if (this.outline) this.outline = { lines: this.outline.lines.map((line) => line.map(scaled)) };
+    if (this.outline) this.outline = { ...this.outline, lines: this.outline.lines.map((line) => line.map(scaled)) };
     this.desk.say("The background is to scale.");
     this.desk.draw();
   }
