@@ -156,6 +156,28 @@ const tests = {
     await page.close();
   },
 
+  async "pins on ground are undone and redone one by one, and are not of another drawing"() {
+    const page = await begun();
+    const pins = () => page.evaluate(() => globalThis.desk.pins.length);
+    await rest(400);
+    for (const at of [[0, 0], [50, 0]]) {
+      await clicked(page, at);
+      await rest(400);
+    }
+    const seen = [await pins()];
+    for (const way of ["undo", "undo", "redo", "redo", "undo"]) {
+      await page.click(`#${way}`);
+      seen.push(await pins());
+    }
+    check(JSON.stringify(seen) === "[2,1,0,1,2,1]", `pins after each: ${seen}`);
+    await page.click("#new");
+    await page.select("#leg-kind", "RRR");
+    await page.click("#new-platform");
+    await drawn(page);
+    check((await pins()) === 0, "a pin of the drawing is left");
+    await page.close();
+  },
+
   async "a slider crank, its freedoms and what cannot be assembled are said while it is drawn"() {
     const page = await begun();
     await clicked(page, [0, 0]);

@@ -19,7 +19,7 @@ export interface Dimension {
 export interface Drawn {
   sketch: Sketch | null;
   /** Pins on ground that nothing turns about yet. */
-  pins: Point[];
+  pins: readonly Point[];
   dimensions: Dimension[];
   rubber: [Point, Point] | null;
   /** Where the pointer is, and what it snaps to. */

@@ -21,8 +21,6 @@ export class Desk {
   readonly backdrop: Backdrop;
   on = false;
   sketch: Sketch | null = null;
-  /** Pins on ground that nothing turns about yet. */
-  pins: Point[] = [];
   private tool: Tool = TOOLS[0]!;
   private from: Snapped | null = null;
   private cursor: Point = [0, 0];
@@ -69,6 +67,15 @@ export class Desk {
       if (first) this.said.textContent = `Line ${first.line}: ${first.title}`;
       else if (this.said.textContent?.startsWith("Line ")) this.said.textContent = this.tool.hint;
     });
+  }
+
+  /** Pins on ground that nothing turns about yet. */
+  get pins(): readonly Point[] {
+    return this.model.pins;
+  }
+
+  set pins(pins: readonly Point[]) {
+    this.model.pin(pins);
   }
 
   /** Begins with nothing drawn. */

@@ -276,7 +276,11 @@ async function begin() {
     trace: (point) => motion.tracePoint(point),
   });
   find("edit").addEventListener("click", () => desk.open(!desk.on));
-  newFile(model, () => desk.begin(), () => desk.open(false));
+  const leave = () => {
+    desk.open(false);
+    desk.pins = [];
+  };
+  newFile(model, () => desk.begin(), leave);
   model.onBlank(() => {
     document.body.classList.add("blank");
     find("name").textContent = "New drawing";
@@ -296,7 +300,7 @@ async function begin() {
   keyboard(picture.stage, model, say, (view) => picture.look(VIEWS[view]![1]));
   const browse = gallery(module, (file) => {
     history.replaceState(null, "", " ");
-    desk.open(false);
+    leave();
     model.load(file);
   });
   find("browse").addEventListener("click", () => void browse());

@@ -1,6 +1,7 @@
 // The mechanism in the page, what is held of it and where it is; all listeners are notified of changes.
 import { Background } from "./background";
 import { expression, nearest } from "./sliders";
+import type { Point } from "./sketch";
 import type { Solver } from "./solver";
 import { type Coordinate, type Frame, type Loaded, type Mechanism, type Press, type Problem, Refused, type Request, type Scene, type State } from "./types";
 
@@ -29,6 +30,9 @@ export class Model {
   quantities = "";
   /** The assembly that the mechanism was put into, from which it has moved without leaving its branch. */
   branch = "";
+  /** Pins of a drawing on ground that nothing turns about yet: the file cannot name them. */
+  pins: readonly Point[] = [];
+  private readonly pinned: (() => void)[] = [];
   private readonly loaded: (() => void)[] = [];
   private readonly moved: (() => void)[] = [];
   private readonly blanks: (() => void)[] = [];
@@ -42,6 +46,15 @@ export class Model {
 
   onMoved(act: () => void) {
     this.moved.push(act);
+  }
+
+  onPinned(act: () => void) {
+    this.pinned.push(act);
+  }
+
+  pin(pins: readonly Point[]) {
+    this.pins = pins;
+    this.pinned.forEach((act) => act());
   }
 
   onBlank(act: () => void) {

@@ -59,7 +59,7 @@ export class ModeList {
       waiting.push([canvas, found.states[first]!.scene]);
       const words = several ? `pose ${k + 1}` : `mode ${found.report.assemblies[first]!.mode}`;
       const folded = others.length ? [this.variants(found, modes)] : [];
-      return element("li", {}, this.button(found, first, words, canvas), element("div", {}, element("span", { class: "soft" }, notes(found, first)), ...folded));
+      return element("li", {}, this.button(found, first, words, canvas), element("div", {}, element("span", { class: "soft", title: "certified: proved to exist, and to be the only one near by" }, notes(found, first)), ...folded));
     }));
     // a picture at a time, so that the list is there at once
     const next = () => {

@@ -23,7 +23,7 @@ const [POINT, LINK] = [13, 8];
 /** Directions are multiples of this, in rad, within so much. */
 const [DIRECTION, CLOSE] = [Math.PI / 12, 0.05];
 
-export function snapped(sketch: Sketch | null, pins: Point[], at: Point, perPixel: number, snaps: Snaps, from: Point | null): Snapped {
+export function snapped(sketch: Sketch | null, pins: readonly Point[], at: Point, perPixel: number, snaps: Snaps, from: Point | null): Snapped {
   const near = (to: Point) => distance(at, to) / perPixel;
   const found: { far: number; end: Snapped }[] = [];
   if (snaps.points && sketch) {

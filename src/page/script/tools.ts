@@ -28,7 +28,7 @@ export const TOOLS: Tool[] = [
     },
     line: (desk, from, to) => {
       const pin = desk.pins.findIndex((of) => of[0] === from.at[0] && of[1] === from.at[1]);
-      if (pin >= 0 && !from.joint) return void (desk.pins[pin] = to.at);
+      if (pin >= 0 && !from.joint) return void (desk.pins = desk.pins.with(pin, to.at));
       const { tip } = from;
       if (tip && held(to) && to.body !== tip.spot.body) {
         desk.change((draft) => draft.attach(tip, to));
@@ -41,7 +41,7 @@ export const TOOLS: Tool[] = [
     name: "Ground", key: "G", hint: "Click where a pin is fixed to ground; on a point, that is pinned to ground.",
     click: (desk, at) => {
       if (at.tip) return desk.change((draft) => draft.ground(at.at, at.tip!));
-      if (!at.joint && !at.link) desk.pins.push(at.at);
+      if (!at.joint && !at.link) desk.pins = [...desk.pins, at.at];
     },
   },
   {
@@ -112,7 +112,7 @@ export const TOOLS: Tool[] = [
       const pin = desk.pins.findIndex((of) => of[0] === at[0] && of[1] === at[1]);
       if (tip) desk.change((draft) => draft.removeTip(tip));
       else if (joint) desk.change((draft) => draft.removeJoint(joint));
-      else if (pin >= 0) desk.pins.splice(pin, 1);
+      else if (pin >= 0) desk.pins = desk.pins.toSpliced(pin, 1);
       else if (link) desk.change((draft) => draft.removeBody(link));
     },
   },

@@ -13,6 +13,7 @@ interface Moment {
   place: Place;
   branch: string;
   blank: boolean;
+  pins: Model["pins"];
 }
 
 export class Undo {
@@ -32,6 +33,7 @@ export class Undo {
     model.onLoaded(later);
     model.onMoved(later);
     model.onBlank(later);
+    model.onPinned(later);
     document.addEventListener("keydown", (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
@@ -79,12 +81,13 @@ export class Undo {
   }
 
   private now(): Moment {
-    const { file, branch, mechanism } = this.model;
-    return { file, place: this.model.place(), branch, blank: mechanism === null };
+    const { file, branch, mechanism, pins } = this.model;
+    return { file, place: this.model.place(), branch, blank: mechanism === null, pins };
   }
 
-  private restore({ file, place, branch, blank }: Moment) {
+  private restore({ file, place, branch, blank, pins }: Moment) {
     this.restoring = true;
+    this.model.pin(pins);
     if (blank) this.model.blank(file);
     else {
       this.model.load(file, place);
@@ -104,5 +107,5 @@ export class Undo {
 }
 
 function same(a: Moment, b: Moment | undefined): boolean {
-  return b !== undefined && a.file.text === b.file.text && JSON.stringify([a.file.set, a.place]) === JSON.stringify([b.file.set, b.place]);
+  return b !== undefined && a.file.text === b.file.text && JSON.stringify([a.file.set, a.place, a.pins]) === JSON.stringify([b.file.set, b.place, b.pins]);
 }
