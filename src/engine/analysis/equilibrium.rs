@@ -18,7 +18,7 @@ use crate::system::{
 };
 
 pub use all::AllRest;
-pub use oscillation::{Mode, Stability, Stiffness};
+pub use oscillation::{NaturalMode, Stability, Stiffness};
 
 /// Settings of a search for rest positions.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +90,7 @@ pub struct RestPosition {
     /// Its stability.
     pub stability: Stability,
     /// Small oscillations about it, slowest first; empty where bodies have no mass.
-    pub modes: Vec<Mode>,
+    pub modes: Vec<NaturalMode>,
     /// Compliance of each platform, and stiffness where it moves in all six directions.
     pub stiffness: Vec<Stiffness>,
     /// Joints outside their limits.

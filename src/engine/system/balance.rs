@@ -28,7 +28,7 @@ pub struct Balance<T: Factorable = f64> {
     pub forces: Vec<T>,
     /// The reactions of closures, then of joints, if they are wanted.
     pub reactions: Vec<Carried<T>>,
-    /// The inertia that each held coordinate feels, where it is wanted, in kg·m² or kg.
+    /// The inertia that each held coordinate feels, once it [is wanted](Balance::feel), in kg·m² or kg.
     pub inertias: Vec<T>,
     /// The power of the drives, in W.
     pub power: T,
@@ -201,12 +201,6 @@ impl<T: Factorable> Balance<T> {
         });
         self.forces.clear();
         self.forces.extend(forces);
-        let inertias = responses.iter().map(|(rates, wanted)| match wanted {
-            true => self.loaded.inertia(rates, rates, placement),
-            false => T::from_f64(f64::NAN),
-        });
-        self.inertias.clear();
-        self.inertias.extend(inertias);
         let sizes = self
             .acting
             .wrenches
@@ -348,9 +342,19 @@ impl<T: Factorable> Balance<T> {
         all
     }
 
-    /// The inertia that couples two motions of dimensionless rates, where the motion was last factorised.
-    pub fn inertia(&self, motion: &Motion<T>, first: &[T], second: &[T]) -> T {
-        self.loaded.inertia(first, second, motion.placement())
+    /// The inertia that each held coordinate feels, for its motions that are wanted, where the motion was last factorised.
+    pub fn feel(&mut self, motion: &Motion<T>, responses: &[(&[T], bool)]) {
+        let inertias = responses.iter().map(|(rates, wanted)| match wanted {
+            true => self.loaded.inertia(rates, motion.placement()),
+            false => T::from_f64(f64::NAN),
+        });
+        self.inertias.clear();
+        self.inertias.extend(inertias);
+    }
+
+    /// The mass matrix of motions of dimensionless rates, row by row, where the motion was last factorised.
+    pub fn inertias(&self, motion: &Motion<T>, motions: &[Vec<T>]) -> Vec<T> {
+        self.loaded.inertias(motions, motion.placement())
     }
 
     /// The power of what acts in a motion of dimensionless rates, where the motion was last factorised.

@@ -1,6 +1,7 @@
 //! Forces and moments that act at a configuration: loads, weights, springs and, where it moves, inertia.
 
 mod here;
+mod inertia;
 
 use super::{FrameTwists, Load, Places, Unknown};
 use crate::geometry::Vector3;
@@ -20,8 +21,8 @@ pub struct Loaded<T = f64> {
     points: Vec<Point>,
     /// Number of the point of each mass, of the ends of each spring and of each given force.
     masses: Vec<usize>,
-    springs: Vec<Place>,
-    forces: Vec<Place>,
+    springs: Vec<LoadPlace>,
+    forces: Vec<LoadPlace>,
     /// Number of the point, force at it and moment.
     constant: Vec<(usize, [f64; 3], [f64; 3])>,
     /// Joints with the constant loads along them, in N and N·m.
@@ -34,7 +35,7 @@ pub struct Loaded<T = f64> {
 
 /// Numbers of points, or a joint.
 #[derive(Clone, Copy, Debug)]
-enum Place {
+enum LoadPlace {
     Points(usize, usize),
     Joint(usize),
     At(usize),
@@ -155,8 +156,8 @@ impl<T: Number> Loaded<T> {
             place.expect("every point is among those of the load")
         };
         let place = |along: &Along| match along {
-            Along::Points([a, b]) => Place::Points(number(a), number(b)),
-            Along::Joint(joint) => Place::Joint(*joint),
+            Along::Points([a, b]) => LoadPlace::Points(number(a), number(b)),
+            Along::Joint(joint) => LoadPlace::Joint(*joint),
         };
         let places = Places::new(unknowns);
         let scales = mechanism.dimensions().joint_scales.iter().enumerate();
@@ -167,7 +168,7 @@ impl<T: Number> Loaded<T> {
             forces: (own.forces.iter())
                 .map(|of| match &of.on {
                     GivenEffort::Along(along, _) => place(along),
-                    GivenEffort::At { point, .. } => Place::At(number(point)),
+                    GivenEffort::At { point, .. } => LoadPlace::At(number(point)),
                 })
                 .collect(),
             constant: (load.wrenches.iter())
@@ -274,7 +275,7 @@ impl<T: Number> Loaded<T> {
                 (GivenEffort::Along(_, given), place) => {
                     // positive towards higher values of a joint, but towards one another of points
                     let effort = match place {
-                        Place::Joint(_) => -value(given),
+                        LoadPlace::Joint(_) => -value(given),
                         _ => value(given),
                     };
                     if let (_, Some(rate)) = here.extension(place) {
@@ -287,7 +288,7 @@ impl<T: Number> Loaded<T> {
                     GivenEffort::At {
                         wrench, follows, ..
                     },
-                    Place::At(i),
+                    LoadPlace::At(i),
                 ) => {
                     let values = wrench.each_ref().map(value);
                     let [fx, fy, fz, mx, my, mz] = values;
@@ -311,59 +312,17 @@ impl<T: Number> Loaded<T> {
         }
     }
 
-    /// Weights, and forces and moments of inertia: F = m·(g − a), M = −(I·α + ω × I·ω).
-    fn weigh(&self, here: &Here<T>, acting: &mut Acting<T>) {
-        let gravity = Vector3(self.own.gravity.map(T::from_f64));
-        let centre = Vector3(self.centre.map(T::from_f64));
-        for (mass, &i) in self.own.masses.iter().zip(&self.masses) {
-            let m = mass.mass;
-            let height = self.twists.origin(i, here.placement) + centre;
-            acting.potential += -gravity.dot(&height).scale(m);
-            acting.wrenches[i][0] += gravity.scaled(m);
-            let Some([omega, velocity]) = here.motion(i) else {
-                acting.powers.push(T::zero());
-                continue;
-            };
-            acting.powers.push(gravity.dot(&velocity).scale(m));
-            let spin = self.angular_momentum(i, mass, &omega, here.placement);
-            let twice = velocity.dot(&velocity).scale(m) + omega.dot(&spin);
-            acting.kinetic += twice.scale(0.5);
-            if let Some([alpha, acceleration]) = here.change(i) {
-                let change = self.angular_momentum(i, mass, &alpha, here.placement);
-                acting.wrenches[i][0] += -acceleration.scaled(m);
-                acting.wrenches[i][1] += -(change + omega.cross(&spin));
-            }
-        }
-    }
-
-    /// I·ω of a mass, in ground.
-    fn angular_momentum(
-        &self,
-        i: usize,
-        mass: &crate::mechanism::Mass,
-        omega: &Vector3<T>,
-        placement: &Placement<T>,
-    ) -> Vector3<T> {
-        let turn = &self.twists.frame(i, placement).rotation;
-        let own = turn.inverse_rotate(omega);
-        let along = |row: &[f64; 3]| {
-            let parts = row.iter().zip(own.0).filter(|(entry, _)| **entry != 0.0);
-            parts.fold(T::zero(), |sum, (entry, part)| sum + part.scale(*entry))
-        };
-        *turn * Vector3(mass.inertia.each_ref().map(along))
-    }
-
     /// An effort that pulls two points together, or a joint to lower values.
-    fn pull(&self, here: &Here<T>, place: Place, effort: T, acting: &mut Acting<T>) {
+    fn pull(&self, here: &Here<T>, place: LoadPlace, effort: T, acting: &mut Acting<T>) {
         match place {
-            Place::Joint(joint) => acting.efforts[joint] -= effort,
-            Place::Points(a, b) => {
+            LoadPlace::Joint(joint) => acting.efforts[joint] -= effort,
+            LoadPlace::Points(a, b) => {
                 let (_, direction) = here.line(a, b);
                 let force = direction.times(effort);
                 acting.wrenches[a][0] += force;
                 acting.wrenches[b][0] += -force;
             }
-            Place::At(_) => {}
+            LoadPlace::At(_) => {}
         }
     }
 
@@ -380,17 +339,5 @@ impl<T: Number> Loaded<T> {
             }
         }
         power
-    }
-
-    /// The inertia that couples two motions, Σ m·v₁·v₂ + ω₁·I·ω₂, for dimensionless rates of the unknowns. For motions of
-    /// unit rates of two coordinates it is an entry of the mass matrix.
-    pub fn inertia(&self, first: &[T], second: &[T], placement: &Placement<T>) -> T {
-        let mut sum = T::zero();
-        for (mass, &i) in self.own.masses.iter().zip(&self.masses) {
-            let [a, b] = [first, second].map(|rates| self.twists.twist(i, placement, rates));
-            let spin = self.angular_momentum(i, mass, &b.omega, placement);
-            sum += a.velocity.dot(&b.velocity).scale(mass.mass) + a.omega.dot(&spin);
-        }
-        sum
     }
 }

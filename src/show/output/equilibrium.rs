@@ -7,7 +7,7 @@ use super::report::Report;
 use super::statics::EFFORTS;
 use crate::algebra::SiUnit;
 use crate::analysis::equilibrium::{
-    AllRest, EquilibriumReport, Mode, NoRest, RestPosition, Stability, Stiffness,
+    AllRest, EquilibriumReport, NaturalMode, NoRest, RestPosition, Stability, Stiffness,
 };
 use crate::description::{count, listed};
 use crate::system::NotAlgebraic;
@@ -174,13 +174,13 @@ fn position(report: &EquilibriumReport, of: &RestPosition, section: Section) -> 
         .fold(section, |section, of| section.section(matrix(of)))
 }
 
-fn modes(modes: &[Mode], unit: impl Fn(&str) -> SiUnit) -> Section {
-    let pace = |mode: &Mode| match (mode.frequency, mode.departure) {
+fn modes(modes: &[NaturalMode], unit: impl Fn(&str) -> SiUnit) -> Section {
+    let pace = |mode: &NaturalMode| match (mode.frequency, mode.departure) {
         (Some(frequency), _) => format!("{} Hz", number(frequency)),
         (None, Some(rate)) => format!("departs at {} 1/s", number(rate)),
         (None, None) => String::new(),
     };
-    let shape = |mode: &Mode| {
+    let shape = |mode: &NaturalMode| {
         let parts = mode.shape.0.iter().filter(|(_, x)| x.abs() > 1e-6);
         let parts = parts.map(|(name, x)| format!("{name} {}", quantity(*x, unit(name))));
         parts.collect::<Vec<_>>().join(", ")

@@ -32,7 +32,7 @@ pub enum Stability {
 /// A small oscillation, or the departure from an unstable position.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Mode {
+pub struct NaturalMode {
     /// Its frequency without damping, in Hz; `None` if the position is left.
     pub frequency: Option<f64>,
     /// The rate σ of a departure eᵟᵗ, in 1/s.
@@ -119,7 +119,7 @@ fn modes(
     dynamics: &Dynamics,
     (hessian, mass): (&[f64], &[f64]),
     flat: f64,
-) -> Vec<Mode> {
+) -> Vec<NaturalMode> {
     let units = dynamics.units();
     let free = units.len();
     let mass = DMatrix::from_row_slice(free, free, mass);
@@ -145,7 +145,7 @@ fn modes(
             square if square.abs() <= flat * largest * largest => 0.0,
             square => square,
         };
-        Mode {
+        NaturalMode {
             frequency: (square >= 0.0).then(|| square.sqrt() / TAU),
             departure: (square < 0.0).then(|| (-square).sqrt()),
             shape: shape(mechanism, dynamics, amplitudes.as_slice()),

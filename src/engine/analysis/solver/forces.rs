@@ -9,12 +9,12 @@ use crate::system::{Balance, Coordinate, Instant, Load, Motion, Question};
 use super::report::{ForceComponent, ForceProgram};
 
 /// The forces at the inputs over any numbers.
-struct Driven<T: Factorable> {
+struct DrivingForces<T: Factorable> {
     motion: Motion<T>,
     balance: Balance<T>,
 }
 
-impl<T: Factorable> Driven<T> {
+impl<T: Factorable> DrivingForces<T> {
     fn new(question: &Question, coordinates: &[Coordinate], load: &Load) -> Self {
         let mechanism = question.mechanism();
         let frames = Balance::<T>::frames(mechanism, load, false);
@@ -22,7 +22,7 @@ impl<T: Factorable> Driven<T> {
             question.with_still(held)
         });
         let kinematics = motion.kinematics().clone();
-        Driven {
+        DrivingForces {
             balance: Balance::new(mechanism, load, &motion, &kinematics, false),
             motion,
         }
@@ -65,7 +65,7 @@ pub fn forces(
 ) -> Option<Vec<f64>> {
     let plan = VariablePlan::new(question);
     let (_, at) = plan.posed(inputs, state);
-    Driven::new(question, &plan.coordinates(), load).forces(&at, driven, time)
+    DrivingForces::new(question, &plan.coordinates(), load).forces(&at, driven, time)
 }
 
 impl VariablePlan<'_> {
@@ -100,7 +100,8 @@ impl VariablePlan<'_> {
         let (rates, changes) = (inputs(0), inputs(count));
         let time = Recorded::input(first + 2 * count);
         let before = Recorded::decisions().len();
-        let found = Driven::new(question, &coordinates, load).forces(at, [&rates, &changes], time);
+        let found =
+            DrivingForces::new(question, &coordinates, load).forces(at, [&rates, &changes], time);
         let found = found.ok_or(NoSolver::Undetermined)?;
         let component = |(of, force): (&Coordinate, &Recorded)| ForceComponent {
             unit: of.force_unit(self.mechanism),

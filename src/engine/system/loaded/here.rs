@@ -1,6 +1,6 @@
 //! What a load depends on at a configuration.
 
-use super::{Loaded, Moving, Place};
+use super::{LoadPlace, Loaded, Moving};
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Measured, Order, Placement, Point, PoseCoordinate};
 use crate::number::{Dual, Number};
@@ -43,16 +43,16 @@ impl<T: Number> Here<'_, T> {
     }
 
     /// The distance of two points, or the value of a joint, and its rate.
-    pub fn extension(&self, place: Place) -> (T, Option<T>) {
+    pub fn extension(&self, place: LoadPlace) -> (T, Option<T>) {
         match place {
-            Place::Joint(joint) => (self.at.joints[joint], self.rate(joint)),
-            Place::Points(a, b) => {
+            LoadPlace::Joint(joint) => (self.at.joints[joint], self.rate(joint)),
+            LoadPlace::Points(a, b) => {
                 let (distance, direction) = self.line(a, b);
                 let rates = self.motion(a).zip(self.motion(b));
                 let rate = rates.map(|(a, b)| direction.dot(&(b[1] - a[1])));
                 (distance, rate)
             }
-            Place::At(_) => (T::zero(), None),
+            LoadPlace::At(_) => (T::zero(), None),
         }
     }
 

@@ -151,7 +151,9 @@ impl<'q, T: Factorable> Probe<'q, T> {
                         time,
                         impending: None,
                     };
-                    balance.at(motion, at, &responses.collect::<Vec<_>>(), instant);
+                    let responses: Vec<_> = responses.collect();
+                    balance.at(motion, at, &responses, instant);
+                    balance.feel(motion, &responses);
                 }
                 for (to, from) in found.rates.iter_mut().zip(motion.known()) {
                     to.clear();
