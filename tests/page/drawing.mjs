@@ -301,45 +301,64 @@ const tests = {
     await page.close();
   },
 
-  async "the keyboard alone draws a four-bar"() {
+  async "the keyboard alone draws a four-bar, measures it, drives it and traces a point of it"() {
     const page = await opened("");
     await page.setViewport({ width: 1200, height: 800 });
     await page.waitForSelector("#gallery[open]");
-    await page.keyboard.press("Escape");
-    await page.focus("#new");
-    await page.keyboard.press("Enter");
-    await page.keyboard.press("Enter");
-    await drawn(page);
-    check(await page.evaluate(() => document.activeElement.id === "board"), "the board has no focus");
-    const key = (name) => page.keyboard.press(name);
-    const place = async (x, y) => {
-      await page.focus("#place");
-      await page.keyboard.type(`${x}, ${y}`);
-      await key("Enter");
-      await page.evaluate(() => document.getElementById("board").focus());
+    const key = async (name, times = 1) => {
+      for (let i = 0; i < times; i++) await page.keyboard.press(name);
     };
-    // Ground is chosen: here, and to the right with the arrows
-    await key("Enter");
-    const step = await page.evaluate(() => 1000 * globalThis.desk.board.step);
-    for (let i = 0; i < 4; i++) {
-      await page.keyboard.down("Shift");
-      await key("ArrowRight");
-      await page.keyboard.up("Shift");
-    }
-    await key("Enter");
-    await key("l");
-    await place(0, 0);
-    await place(2 * step, 5 * step);
-    await place(2 * step, 5 * step);
-    await place(22 * step, 12 * step);
-    await place(22 * step, 12 * step);
-    await place(20 * step, 0);
-    check(/^1 freedom,/.test(await status(page)), `it says: ${await status(page)}`);
-    await key("d");
-    for (let i = 0; i < 4; i++) await key("Tab");
-    await page.evaluate(() => document.getElementById("board").focus());
+    /** So many steps of the grid, then Enter. */
+    const go = async (right, up) => {
+      for (const [steps, way] of [[right, ["ArrowRight", "ArrowLeft"]], [up, ["ArrowUp", "ArrowDown"]]]) {
+        const arrow = way[Number(steps < 0)];
+        await page.keyboard.down("Shift");
+        await key(arrow, Math.floor(Math.abs(steps) / 5));
+        await page.keyboard.up("Shift");
+        await key(arrow, Math.abs(steps) % 5);
+      }
+      await key("Enter");
+    };
+    const active = () => page.evaluate(() => document.activeElement.id || document.activeElement.className || document.activeElement.dataset.dimension);
     await key("Escape");
-    check(await page.evaluate(() => globalThis.desk.sketch.joints.length === 4), "there are not four joints");
+    for (let i = 0; i < 10 && (await active()) !== "new"; i++) await key("Tab");
+    await key("Enter", 2);
+    await drawn(page);
+    check((await active()) === "board", `the focus is on ${await active()}`);
+    // Ground is chosen: two pins, then from one to the other
+    await go(0, 0);
+    await go(20, 0);
+    await key("l");
+    await go(-20, 0);
+    await go(0, 7);
+    await go(0, 0);
+    await go(20, 5);
+    await go(0, 0);
+    await go(0, -12);
+    check(/^1 freedom,/.test(await status(page)), `it says: ${await status(page)}`);
+    // a point from the middle of the coupler upwards, the rocker driven, the point traced
+    await key("p");
+    await go(-8, 10);
+    await go(0, 5);
+    const tip = await page.evaluate(() => globalThis.desk.sketch.tips.length);
+    check(tip === 1, `${tip} points are drawn`);
+    await key("d");
+    await go(8, -15);
+    check(/driven: D\./.test(await status(page)), `it says: ${await status(page)}`);
+    // Tab comes to the dimensions
+    await key("Tab");
+    await key("Enter");
+    check(/dimension-field/.test(await active()), `the focus is on ${await active()}`);
+    await page.keyboard.type("71");
+    await key("Enter");
+    await drawn(page);
+    check((await text(page)).includes('"link1_length": "71 mm"'), await text(page));
+    await key("t");
+    await go(-8, 15);
+    await page.waitForSelector("#play:not([disabled])", { timeout: 60_000 });
+    // the rocker swings between its dead points, and the path with it
+    const [places, words] = await page.evaluate(() => [globalThis.picture.scenery.traces[0].points.length, document.getElementById("motion-said").textContent]);
+    check(places > 10 && /dead point/.test(words), `${places} places: ${words}`);
     await page.close();
   },
 
