@@ -30,8 +30,8 @@ use crate::output::document::Cell;
 use crate::output::drawing::{DrawingSettings, Panel, sheet};
 use crate::scene::Scene;
 use crate::view::{Viewed, page};
-use asked::{Asked, values};
-use report::Report;
+use asked::{GivenQuestion, values};
+use report::PythonReport;
 use watched::watched;
 
 /// Values of rows that are followed where they are asked for, without a thread beside.
@@ -71,8 +71,8 @@ create_exception!(
 );
 
 /// A mechanism as a text describes it.
-#[pyclass(frozen, module = "linkwork._linkwork")]
-struct Mechanism {
+#[pyclass(frozen, name = "Mechanism", module = "linkwork._linkwork")]
+struct PythonMechanism {
     text: Arc<str>,
     /// The text with the parameters that were given when it was read.
     description: Arc<Description>,
@@ -82,7 +82,7 @@ struct Mechanism {
 }
 
 #[pymethods]
-impl Mechanism {
+impl PythonMechanism {
     /// Reads a text whose errors name it as `name`, and gives parameters other values.
     #[new]
     fn new(text: String, name: &str, parameters: &Bound<'_, PyAny>) -> PyResult<Self> {
@@ -98,7 +98,7 @@ impl Mechanism {
             .collect();
         let made = diagnostics::made(name, &text, description, &set, style);
         let (description, mechanism) = made.map_err(MechanismError::new_err)?;
-        Ok(Mechanism {
+        Ok(PythonMechanism {
             text: text.into(),
             description: description.into(),
             set: Vec::new(),
@@ -136,7 +136,7 @@ impl Mechanism {
 
     /// The mechanism with other values of parameters, where they are plain numbers; none where the text has to be read
     /// again, which also says what is wrong.
-    fn with_parameters(&self, parameters: &Bound<'_, PyDict>) -> Option<Mechanism> {
+    fn with_parameters(&self, parameters: &Bound<'_, PyDict>) -> Option<PythonMechanism> {
         /// A larger angle needs a unit, which the reader of texts asks for.
         const TWO_TURNS: f64 = 12.0;
         let known = self.mechanism.parameters();
@@ -161,7 +161,7 @@ impl Mechanism {
         // rounded numbers that close a loop are corrected when the text is read
         let exact = self.mechanism.rounding().is_none() && !given.is_empty();
         let mechanism = exact.then(|| self.mechanism.with_values(&given).ok())??;
-        Some(Mechanism {
+        Some(PythonMechanism {
             text: self.text.clone(),
             description: self.description.clone(),
             set,
@@ -201,8 +201,8 @@ impl Mechanism {
         what: &str,
         given: &Bound<'py, PyDict>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(Report, Columns<'py>)> {
-        let asked = Asked::new(self.mechanism.clone(), given)?;
+    ) -> PyResult<(PythonReport, Columns<'py>)> {
+        let asked = GivenQuestion::new(self.mechanism.clone(), given)?;
         let long = what != "solve" || asked.settings.numbered;
         let answer = watched(py, progress, long, |watch| {
             report::answer(what, &asked, &self.mechanism, watch)
@@ -214,7 +214,7 @@ impl Mechanism {
 
     /// A picture of the configurations that a question means.
     fn svg(&self, py: Python<'_>, given: &Bound<'_, PyDict>, labels: bool) -> PyResult<String> {
-        let asked = Asked::new(self.mechanism.clone(), given)?;
+        let asked = GivenQuestion::new(self.mechanism.clone(), given)?;
         let modes = watched(py, None, true, |watch| asked.question.configurations(watch))?;
         let modes = modes.map_err(|error| asked.refusal(&error.into()))?;
         let name = self.mechanism.name();
@@ -247,7 +247,7 @@ impl Mechanism {
         Option<(Vec<(String, String)>, Bound<'py, PyArray2<f64>>)>,
         Option<(Vec<String>, Vec<String>, Bound<'py, PyArray3<f64>>)>,
     )> {
-        let asked = Asked::new(self.mechanism.clone(), given)?;
+        let asked = GivenQuestion::new(self.mechanism.clone(), given)?;
         let question = &asked.question;
         let measured = jacobian || given.contains("report")?;
         let rows = values.as_slice()?;
@@ -319,7 +319,7 @@ impl Mechanism {
             (None, "latin") => Points::LatinHypercube(count),
             (None, _) => Points::Sobol(count),
         };
-        let mut asked = Asked::new(self.mechanism.clone(), given)?;
+        let mut asked = GivenQuestion::new(self.mechanism.clone(), given)?;
         asked.put("vary", vary)?;
         asked.put("deviate", deviate)?;
         let study = Study::new(&asked.question, points);
@@ -335,7 +335,7 @@ impl Mechanism {
     }
 }
 
-impl Mechanism {
+impl PythonMechanism {
     /// The description with the parameters that were given.
     fn described(&self) -> PyResult<Description> {
         let mut description = Description::clone(&self.description);
@@ -388,8 +388,8 @@ fn _linkwork(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MechanismError", py.get_type::<MechanismError>())?;
     module.add("QuestionError", py.get_type::<QuestionError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<Mechanism>()?;
-    module.add_class::<Report>()?;
+    module.add_class::<PythonMechanism>()?;
+    module.add_class::<PythonReport>()?;
     module.add_function(wrap_pyfunction!(self::csv, module)?)?;
     module.add_function(wrap_pyfunction!(regions, module)?)?;
     module.add_function(wrap_pyfunction!(designed::design, module)?)?;

@@ -180,7 +180,7 @@ fn law(word: &str) -> PyResult<Law> {
 }
 
 /// A question with what posed it.
-pub struct Asked {
+pub struct GivenQuestion {
     pub question: Question,
     pub settings: Settings,
     keywords: Keywords,
@@ -193,10 +193,10 @@ const ALIASES: [(&str, Role, Ranged); 2] = [
     ("map", Role::Input, Ranged::Map),
 ];
 
-impl Asked {
+impl GivenQuestion {
     /// The question of a mechanism with what keywords say, in their order.
     pub fn new(mechanism: Arc<Mechanism>, given: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let mut asked = Asked {
+        let mut asked = GivenQuestion {
             question: Question::new(mechanism),
             settings: Settings::default(),
             keywords: Keywords::default(),

@@ -2,9 +2,9 @@
 
 use pyo3::prelude::*;
 
-use super::report::{Column, Report, prefaced};
+use super::report::{ArrayColumn, PythonReport, prefaced};
 use super::watched::watched;
-use super::{Mechanism, MechanismError, QuestionError};
+use super::{MechanismError, PythonMechanism, QuestionError};
 use crate::ask::{Design, DesignError};
 use crate::description::{DesignDescription, FileError, ProblemKind};
 use crate::output::diagnostics::{self, Style};
@@ -14,7 +14,7 @@ use crate::output::diagnostics::{self, Style};
 #[allow(clippy::too_many_arguments)]
 pub fn design<'py>(
     py: Python<'py>,
-    mechanism: &Mechanism,
+    mechanism: &PythonMechanism,
     text: String,
     seed: u64,
     starts: usize,
@@ -22,7 +22,7 @@ pub fn design<'py>(
     solutions: usize,
     most: usize,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(Report, super::Columns<'py>)> {
+) -> PyResult<(PythonReport, super::Columns<'py>)> {
     let wrong = |problems| {
         let error = FileError::new("design", text.clone(), problems);
         QuestionError::new_err(diagnostics::render(&error, Style::Plain))
@@ -53,6 +53,6 @@ pub fn design<'py>(
     let (report, columns) = prefaced(&mechanism.mechanism, report);
     let columns = columns
         .into_iter()
-        .map(|column: Column| column.into_array(py));
+        .map(|column: ArrayColumn| column.into_array(py));
     Ok((report, columns.collect::<PyResult<_>>()?))
 }

@@ -4,7 +4,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
-use super::asked::Asked;
+use super::asked::GivenQuestion;
 use super::words::Refused;
 use crate::analysis::assembly::AssemblySettings;
 use crate::analysis::formulas::FormulasSettings;
@@ -19,11 +19,11 @@ use crate::output::sweep::{SHOWN, row_columns, row_values};
 use crate::output::{AnyReport, JsonReport, Rows, html, markdown, text};
 use crate::solve::Watch;
 
-#[pyclass(frozen, module = "linkwork._linkwork")]
-pub struct Report(Box<dyn AnyReport + Send + Sync>);
+#[pyclass(frozen, name = "Report", module = "linkwork._linkwork")]
+pub struct PythonReport(Box<dyn AnyReport + Send + Sync>);
 
 #[pymethods]
-impl Report {
+impl PythonReport {
     /// False if the answer is negative (exit status 1).
     #[getter]
     fn yes(&self) -> bool {
@@ -52,15 +52,15 @@ impl Report {
     }
 }
 
-pub struct Column {
+pub struct ArrayColumn {
     name: String,
     numbers: Vec<f64>,
     texts: Vec<String>,
 }
 
-impl Column {
-    fn named(names: Vec<String>) -> Vec<Column> {
-        let empty = |name| Column {
+impl ArrayColumn {
+    fn named(names: Vec<String>) -> Vec<ArrayColumn> {
+        let empty = |name| ArrayColumn {
             name,
             numbers: Vec::new(),
             texts: Vec::new(),
@@ -68,13 +68,14 @@ impl Column {
         names.into_iter().map(empty).collect()
     }
 
-    fn of(rows: Rows) -> Vec<Column> {
-        let mut columns = Column::named(rows.columns);
-        rows.rows.for_each(|row| Column::row(&mut columns, row));
+    fn of(rows: Rows) -> Vec<ArrayColumn> {
+        let mut columns = ArrayColumn::named(rows.columns);
+        rows.rows
+            .for_each(|row| ArrayColumn::row(&mut columns, row));
         columns
     }
 
-    fn row(columns: &mut [Column], row: impl IntoIterator<Item = Cell>) {
+    fn row(columns: &mut [ArrayColumn], row: impl IntoIterator<Item = Cell>) {
         let cells = columns.iter_mut().zip(row);
         cells.for_each(|(column, cell)| column.push(cell));
     }
@@ -108,18 +109,21 @@ impl Column {
 pub fn prefaced<R: JsonReport + Send + Sync + 'static>(
     mechanism: &Mechanism,
     report: R,
-) -> (Report, Vec<Column>) {
-    let columns = report.rows().map_or_else(Vec::new, Column::of);
-    (Report(Box::new(Prefaced::new(mechanism, report))), columns)
+) -> (PythonReport, Vec<ArrayColumn>) {
+    let columns = report.rows().map_or_else(Vec::new, ArrayColumn::of);
+    (
+        PythonReport(Box::new(Prefaced::new(mechanism, report))),
+        columns,
+    )
 }
 
 /// Asks the question that has this name.
 pub fn answer(
     what: &str,
-    asked: &Asked,
+    asked: &GivenQuestion,
     mechanism: &Mechanism,
     watch: &Watch,
-) -> Result<(Report, Vec<Column>), Refused> {
+) -> Result<(PythonReport, Vec<ArrayColumn>), Refused> {
     let (question, settings) = (&asked.question, &asked.settings);
     let singularities = &settings.singularities;
     Ok(match what {
@@ -165,17 +169,17 @@ pub fn answer(
 
 /// Rows of motions are kept as columns, and few of them in the report.
 fn motions(
-    asked: &Asked,
+    asked: &GivenQuestion,
     mechanism: &Mechanism,
     watch: &Watch,
-) -> Result<(Report, Vec<Column>), Refused> {
+) -> Result<(PythonReport, Vec<ArrayColumn>), Refused> {
     let all = asked.question.motions(&asked.settings.sweep, watch)?;
     let names = all.columns();
-    let mut columns = Column::named(row_columns(&names));
+    let mut columns = ArrayColumn::named(row_columns(&names));
     let mut sink = |mode: Option<usize>, row: &Row| {
-        Column::row(&mut columns, row_values(&names, mode, row));
+        ArrayColumn::row(&mut columns, row_values(&names, mode, row));
     };
     let report = all.report(SHOWN, &mut sink, watch);
     let report = Prefaced::new(mechanism, report);
-    Ok((Report(Box::new(report)), columns))
+    Ok((PythonReport(Box::new(report)), columns))
 }
