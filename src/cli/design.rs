@@ -48,6 +48,9 @@ pub struct DesignArguments {
     /// and rad
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
+    /// Allow a target to be missed by so much, and weigh it accordingly, e.g. --tolerance left+u,v="1 mm"
+    #[arg(long, value_name = "TARGET=VALUE")]
+    tolerance: Vec<Assignment>,
     /// Require a box of quantities to be reached: its corners, the middles of its sides and its middle, e.g. --contains
     /// pen.x=-0.1..0.1
     #[arg(long, value_name = "QUANTITY=FROM..TO")]
@@ -135,6 +138,8 @@ impl DesignArguments {
                     DesignPart::Whole => true,
                     DesignPart::Output(i) => i < of_file.outputs.len(),
                     DesignPart::Goal => of_file.goal.is_some(),
+                    DesignPart::Weight(i) => i < of_file.weights.len(),
+                    DesignPart::Tolerance(i) => i < of_file.tolerances.len(),
                     DesignPart::Vary(i) => i < of_file.vary.len(),
                     DesignPart::Position(k, _) => {
                         k < of_file.positions.len() || !of_file.contains.is_empty()
@@ -180,6 +185,10 @@ impl DesignArguments {
                 None => (given.trim(), about(mechanism, given.trim())?),
             };
             asked.vary.push(Named::new(name, range));
+        }
+        for Assignment { name, value } in &self.tolerance {
+            let most = vec![entry("--tolerance", value)?];
+            asked.tolerances.push(Named::new(name.as_str(), most));
         }
         for Assignment { name, value } in &self.contains {
             let range = range("--contains", name, value)?;

@@ -634,6 +634,102 @@ fn wrong_questions_are_refused_where_they_are_wrong() {
     }
 }
 
+/// Bounds of what does not change over the motion, and bounds that nothing in the ranges keeps.
+#[test]
+fn bounds_of_ratios_hold_and_impossible_ones_are_refused() {
+    let mechanism = || four_bar([1.0, 0.5, 0.9, 0.8], [0.0, 0.0], false);
+    let question = |bound: &str| {
+        let text = format!(
+            r#"vary: {{ "l1": (0.3, 0.5), "l2": (0.7, 1) }}, positions: [{{ "theta1": 1, "phi1": 1.7 }}], {bound}"#
+        );
+        asked(mechanism(), &text)
+    };
+    // the ratio of two lengths has no unit, their difference is in m
+    let report = question(r#"at_most: { "l1/l2": 0.9, "l1 - l2": "10 cm" }"#).unwrap();
+    assert!(report.designs[0].defects.is_empty(), "{report:?}");
+    let wrong = [
+        (
+            r#"at_most: { "l1/l2": 0.2 }"#,
+            "`l1/l2` shall be at most 0.2, and is at least 0.3 in these ranges",
+        ),
+        (
+            r#"at_least: { "l1": 0.6 }"#,
+            "`l1` shall be at least 0.6 m, and is at most 0.5 m in these ranges",
+        ),
+        (
+            r#"at_least: { "transmission": "91 deg" }"#,
+            "`transmission` shall be at least 91°, and is at most 90° in these ranges",
+        ),
+        (
+            r#"at_most: { "condition": 0.9 }"#,
+            "`condition` shall be at most 0.9, and is at least 1 in these ranges",
+        ),
+        (
+            r#"weights: { "phi2": 2 }"#,
+            "no position has a target `phi2`",
+        ),
+        (
+            r#"weights: { "theta1": 2 }"#,
+            "`theta1` is given, and is met exactly",
+        ),
+        (
+            r#"weights: { "phi1": [1, 2, 3] }"#,
+            "`phi1` has 3 values for 1 position",
+        ),
+        (
+            r#"tolerances: { "phi1": "0 deg" }"#,
+            "`0 deg` is not positive",
+        ),
+    ];
+    for (bound, expected) in wrong {
+        let said = question(bound).unwrap_err().to_string();
+        assert_eq!(said, expected, "{bound}");
+    }
+}
+
+/// A hinge at a distance d from the ends of an arm of length r that should reach points at 1 m and 2 m along a line: the weighted mean
+/// (w₁·1 + w₂·2)/(w₁ + w₂) with w = 1/t².
+#[test]
+fn targets_are_weighed_by_their_tolerances() {
+    let arm = r#"Mechanism(version: 1, name: "arm", convention: Modified, parameters: { "r": 1.2 },
+        joints: { "turn": Actuated(home: 0) }, chains: { "arm": Chain(rows: [(theta: "turn")], tip: [Tx("r")]) }, closures: {})"#;
+    let fit = |more: &str| {
+        let text = format!(
+            r#"vary: {{ "r": (0.5, 3) }}, positions: [{{ "turn": 0, "arm.x": 1 }}, {{ "turn": "360 deg", "arm.x": 2 }}], {more}"#
+        );
+        asked(Description::read(arm).unwrap(), &text).unwrap()
+    };
+    for (more, expected, missed) in [
+        ("", 1.5, 0),
+        (r#"tolerances: { "arm.x": "1 mm" }"#, 1.5, 2),
+        (r#"tolerances: { "arm.x": [0.25, 0.75] }"#, 1.1, 1),
+        (
+            r#"tolerances: { "arm.x": [0.3, 0.95] }"#,
+            1.0 + 0.09 / (0.09 + 0.9025),
+            0,
+        ),
+        (r#"weights: { "arm.x": [3, 1] }"#, 1.1, 0),
+        (
+            r#"weights: { "arm.x": [3, 3] }, tolerances: { "arm.x": ["250 mm", 0.75] }"#,
+            1.1,
+            1,
+        ),
+    ] {
+        let report = fit(more);
+        let best = &report.designs[0];
+        assert!((best.values[0] - expected).abs() < 1e-9, "{more}: {best:?}");
+        let beyond: usize = best
+            .defects
+            .iter()
+            .map(|of| match of {
+                Defect::Tolerance { targets } => targets.len(),
+                _ => 0,
+            })
+            .sum();
+        assert_eq!(beyond, missed, "{more}: {best:?}");
+    }
+}
+
 /// A rocker that turns forth by 103° and back by as much while the crank turns by 2 rad: the equations of Freudenstein have no finite
 /// linkage. The other pairs have one, of 9.25 m, 14.34 m and 9.60 m with a ground link of 5 m (1.85, 2.87 and 1.92 times as long).
 #[test]

@@ -4,6 +4,7 @@ mod drawn;
 mod figure;
 mod judge;
 mod read;
+mod weights;
 
 use std::sync::Arc;
 
@@ -106,7 +107,11 @@ impl Design {
         let (exact, mut searched) = match exact {
             Some((exact, searched)) => (Some(exact), searched),
             None => {
-                let good = |found: &FoundEnd| judge.estimate(found).is_some();
+                let good = |found: &FoundEnd| {
+                    let targets = read.missed(&task.bundle, found).unwrap_or_default();
+                    !targets.iter().any(design::Deviation::is_missed)
+                        && judge.estimate(found).is_some()
+                };
                 (None, task.search(&good, watch))
             }
         };
@@ -120,6 +125,7 @@ impl Design {
             }
             false => 0,
         };
+        searched.interrupted |= watch.is_stopped();
         if exact.is_none() && searched.found.is_empty() && !searched.interrupted {
             return Err(self.nothing_assembles(&mechanism, read, searched.not_assembled, watch));
         }
@@ -133,12 +139,7 @@ impl Design {
         };
         /// Designs that are judged after an interruption.
         const FEW: usize = 3;
-        let judged = if searched.interrupted {
-            FEW
-        } else {
-            most.saturating_mul(4)
-        };
-        let found = &searched.found[..searched.found.len().min(judged)];
+        let found = searched.found.iter().take(most.saturating_mul(4));
         let none = Watch::none();
         if searched.interrupted {
             judge.watch = &none;
@@ -146,9 +147,17 @@ impl Design {
         // of a linkage with links exchanged the one that drives without defects
         let mut classes: Vec<(usize, design::Design)> = Vec::new();
         for found in found {
-            let Some(design) = self.design(&task, &judge, found) else {
-                continue;
-            };
+            if searched.interrupted && classes.len() >= FEW {
+                break;
+            }
+            let mut judged = self.design(&task, &judge, found);
+            // what was being judged when it was stopped is judged again
+            if watch.is_stopped() && !searched.interrupted {
+                searched.interrupted = true;
+                judge.watch = &none;
+                judged = self.design(&task, &judge, found);
+            }
+            let Some(design) = judged else { continue };
             match classes.iter_mut().find(|(of, _)| *of == found.class) {
                 Some((_, known)) if design.defects.len() < known.defects.len() => *known = design,
                 Some(_) => {}
@@ -271,16 +280,18 @@ impl Design {
     }
 
     fn design(&self, task: &Task, judge: &Judge, found: &FoundEnd) -> Option<design::Design> {
-        let verdict = judge.verdict(found);
-        let deviations = task.bundle.deviations(&found.at)?.into_iter();
-        let deviations = deviations.filter(|(target, _)| !target.exact);
+        let mut verdict = judge.verdict(found);
+        let deviations = judge.read.missed(&task.bundle, found)?;
+        let beyond = deviations.iter().filter(|of| of.is_missed()).cloned();
+        let targets: Vec<design::Deviation> = beyond.collect();
+        if !targets.is_empty() {
+            verdict.defects.push(design::Defect::Tolerance { targets });
+        }
         let model = task.bundle.model(&found.at)?;
         Some(design::Design {
             values: found.at.numbers.clone(),
             sum_of_squares: found.squares,
-            deviations: deviations
-                .map(|(target, deviation)| design::Deviation::of(target, deviation))
-                .collect(),
+            deviations,
             sensitivities: model.sensitivities(),
             defects: verdict.defects,
             driver: verdict.moves,

@@ -17,6 +17,10 @@ pub struct DesignDescription {
     pub vary: Vec<Named<[Entry; 2]>>,
     /// The positions: values of quantities, or two or three coordinates of a point in ground.
     pub positions: Vec<Vec<Named<Vec<Entry>>>>,
+    /// Weights of targets by their names in the positions, one for all positions or one for each.
+    pub weights: Vec<Named<Vec<Entry>>>,
+    /// By how much targets may be missed, one for all positions or one for each. The weight of a target is divided by it.
+    pub tolerances: Vec<Named<Vec<Entry>>>,
     /// Quantities with ranges that span a box: its corners, the middles of its sides and its middle are positions after the others.
     pub contains: Vec<Named<[Entry; 2]>>,
     /// Inputs with the ranges through which they shall move.
@@ -51,6 +55,10 @@ pub enum DesignPart {
     Vary(usize),
     /// A quantity of a position.
     Position(usize, usize),
+    /// A weight.
+    Weight(usize),
+    /// A tolerance.
+    Tolerance(usize),
     /// A range of the motion.
     Motion(usize),
     /// A least value.
@@ -84,6 +92,8 @@ impl DesignDescription {
                     of(&side.name, &side.value)
                 }
             },
+            DesignPart::Weight(i) => of(&self.weights[i].name, &self.weights[i].value),
+            DesignPart::Tolerance(i) => of(&self.tolerances[i].name, &self.tolerances[i].value),
             DesignPart::Motion(i) => of(&self.motion[i].name, &self.motion[i].value),
             DesignPart::AtLeast(i) => of(
                 &self.at_least[i].name,

@@ -2,12 +2,15 @@
 
 mod words;
 
+use std::f64::consts::FRAC_PI_2;
+
 use thiserror::Error;
 
 use super::value::split_at_commas;
 use super::{ClosureKind, Frame, Mechanism, Point, PointError, PoseCoordinate};
-use crate::algebra::{Expression, MeasureError, ParseError, SiUnit};
+use crate::algebra::{Expression, LARGEST, MeasureError, ParseError, SiUnit};
 use crate::description::nearest;
+use crate::number::Interval;
 
 pub use words::{Carrier, Effort, Energy, Figure, Order, ScrewPart, Worker};
 
@@ -18,7 +21,7 @@ pub struct Quantity {
     pub name: String,
     /// Its value in SI units and rad.
     pub expression: Expression<Measured>,
-    /// Its unit; [`SiUnit::ONE`] if it has none, or where a parameter without unit hides it.
+    /// Its unit; [`SiUnit::ONE`] if it has none, or where a parameter without unit or use hides it.
     pub unit: SiUnit,
 }
 
@@ -125,6 +128,12 @@ impl Quantity {
         expression: Expression<Measured>,
     ) -> Result<Self, MeasureError> {
         let unit = expression.unit(&|of| of.unit(mechanism))?;
+        // a parameter without unit has that of its use, where the units fit then
+        let in_use = |of: &Measured| match *of {
+            Measured::Parameter(parameter) => mechanism.measure_in_use(parameter).si_unit(),
+            _ => of.unit(mechanism),
+        };
+        let unit = expression.unit(&in_use).ok().flatten().or(unit);
         Ok(Quantity {
             name: name.trim().to_owned(),
             expression,
@@ -288,6 +297,22 @@ impl Measured {
             Measured::Transmission(_) => SiUnit::RADIAN,
             Measured::Figure(_) => SiUnit::ONE,
         })
+    }
+}
+
+impl Measured {
+    /// Values beyond which it never is, whatever the dimensions.
+    pub fn possible(&self) -> Interval {
+        let (low, high) = match *self {
+            Measured::Transmission(_) => (0.0, FRAC_PI_2),
+            Measured::Figure(Figure::Condition) => (1.0, LARGEST),
+            Measured::Figure(Figure::Determinant) => (-LARGEST, LARGEST),
+            Measured::Figure(_) | Measured::Size(..) | Measured::Curvature(_) | Measured::Time => {
+                (0.0, LARGEST)
+            }
+            _ => (-LARGEST, LARGEST),
+        };
+        Interval { low, high }
     }
 }
 

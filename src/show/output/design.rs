@@ -297,6 +297,14 @@ fn defect(defect: &Defect) -> String {
                 None => format!("`{name}` shall be {sign} {bound}, and is not bounded everywhere"),
             }
         }
+        Defect::Tolerance { targets } => {
+            let missed = targets.iter().map(|of| {
+                let most = quantity(of.tolerance.unwrap_or_default(), of.unit);
+                format!("{}, more than {most}", missed(of))
+            });
+            let missed: Vec<String> = missed.collect();
+            format!("misses by {}", missed.join(" and "))
+        }
         Defect::NotJudged => "its motion could not be judged".into(),
     }
 }

@@ -18,6 +18,9 @@ pub struct Deviation {
     pub unit: SiUnit,
     /// By how much it differs from its target.
     pub deviation: f64,
+    /// By how much it may differ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
 }
 
 impl Deviation {
@@ -28,7 +31,15 @@ impl Deviation {
             quantity: target.quantity.name.clone(),
             unit: target.quantity.unit,
             deviation,
+            tolerance: None,
         }
+    }
+
+    /// True if it is missed by more than its tolerance.
+    pub fn is_missed(&self) -> bool {
+        let slack = 1.0 + crate::number::tolerance::SAME;
+        self.tolerance
+            .is_some_and(|most| self.deviation.abs() > most * slack)
     }
 }
 
@@ -90,6 +101,11 @@ pub enum Defect {
         worst: Option<f64>,
         /// True for a bound from below.
         at_least: bool,
+    },
+    /// Targets are missed by more than their tolerances.
+    Tolerance {
+        /// Those targets.
+        targets: Vec<Deviation>,
     },
     /// It could not be judged: a position is singular, or leaves more than one freedom.
     NotJudged,

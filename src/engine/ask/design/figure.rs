@@ -2,8 +2,9 @@
 
 use crate::algebra::{Measure, SiUnit};
 use crate::analysis::sweep::{Extreme, Extremum};
-use crate::description::DesignProblem;
-use crate::mechanism::{Mechanism, Quantity, QuantityError};
+use crate::description::{DesignProblem, Entry};
+use crate::mechanism::{Measured, Mechanism, Quantity, QuantityError};
+use crate::number::Interval;
 use crate::system::Value;
 
 /// A figure of the values that a quantity takes.
@@ -29,6 +30,8 @@ pub(super) struct Figure {
     pub unit: SiUnit,
     /// The text of the quantity, or the point.
     pub text: String,
+    /// The quantity, or a coordinate of the point.
+    quantity: Quantity,
     /// The tolerance of a dwell.
     pub tolerance: String,
 }
@@ -81,13 +84,14 @@ impl Figure {
             return Ok(None);
         };
         let text = text.trim();
-        let unit = match over {
+        let quantity = match over {
             Statistic::Straightness => {
                 let frame = text.split('+').next().unwrap_or(text).trim();
-                Quantity::read(mechanism, name, &format!("[{frame}].x"))?.unit
+                Quantity::read(mechanism, name, &format!("[{frame}].x"))?
             }
-            _ => Quantity::read(mechanism, name, text)?.unit,
+            _ => Quantity::read(mechanism, name, text)?,
         };
+        let unit = quantity.unit;
         let measure = match unit {
             SiUnit::RADIAN => Measure::Angle,
             SiUnit::METRE => Measure::Length,
@@ -107,7 +111,29 @@ impl Figure {
             },
             text: text.to_owned(),
             tolerance: tolerance.to_owned(),
+            quantity,
         }))
+    }
+
+    /// Values beyond which it never is for parameters in intervals.
+    pub fn possible(&self, parameters: &[Interval]) -> Interval {
+        const ANY: f64 = f64::INFINITY;
+        let value = self.quantity.expression.evaluate(&|of| match of {
+            Measured::Parameter(i) => parameters[*i],
+            other => other.possible(),
+        });
+        let of = value.unwrap_or(Interval {
+            low: -ANY,
+            high: ANY,
+        });
+        let (low, high) = match self.over {
+            Statistic::Least | Statistic::Greatest | Statistic::Mean => return of,
+            Statistic::Rms => (0.0, of.magnitude()),
+            Statistic::Range => (0.0, of.width()),
+            Statistic::Straightness => (0.0, ANY),
+            Statistic::Dwell => (0.0, 1.0),
+        };
+        Interval { low, high }
     }
 
     /// True for one of means.
@@ -146,6 +172,25 @@ impl Figure {
     }
 }
 
+/// The value of an entry for a quantity of some unit.
+pub(super) fn in_unit(
+    mechanism: &Mechanism,
+    unit: SiUnit,
+    entry: &Entry,
+) -> Result<f64, DesignProblem> {
+    let measure = match unit {
+        SiUnit::RADIAN => Measure::Angle,
+        SiUnit::METRE => Measure::Length,
+        _ => Measure::Number,
+    };
+    let text = entry.expression.to_string();
+    let read = Value::Text(text.clone()).number(mechanism, measure);
+    read.map_err(|error| {
+        let why = error.to_string();
+        DesignProblem::Value { text, why }
+    })
+}
+
 /// The problem of a text that is no quantity.
 pub(super) fn no_quantity(error: QuantityError) -> DesignProblem {
     let why = error.to_string();
@@ -178,7 +223,8 @@ impl Observed {
     pub fn of(extremum: &Extremum, duration: f64) -> Self {
         let all = extremum.unbounded.is_empty() && !extremum.at_least;
         let constant = extremum.constant;
-        let end = |at: &Option<Extreme>| constant.or(Some(at.as_ref()?.value));
+        let value = |at: &Option<Extreme>| at.as_ref().map(|of| of.value);
+        let end = |at: &Option<Extreme>| constant.or(value(at));
         let ends = || Some([end(&extremum.least)?, end(&extremum.greatest)?]);
         let square = |x: f64| x * x;
         let means = || {

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::DesignError;
-use super::figure::{Figure, Observed, Statistic, no_quantity};
-use super::read::{Read, in_unit};
+use super::figure::{Figure, Observed, Statistic, in_unit, no_quantity};
+use super::read::Read;
 use crate::algebra::SiUnit;
 use crate::analysis::design::{Defect, DesignCourse, FoundEnd, Moves, course};
 use crate::ask::Question;
@@ -20,7 +20,7 @@ use crate::system::{self, Bundle};
 /// Judges designs by what was asked.
 pub(super) struct Judge<'a> {
     asked: &'a DesignDescription,
-    read: &'a Read,
+    pub read: &'a Read,
     description: &'a Description,
     mechanism: &'a Arc<Mechanism>,
     pub watch: &'a Watch<'a>,
@@ -92,6 +92,7 @@ impl<'a> Judge<'a> {
         let least = least.map(|(i, named)| (DesignPart::AtLeast(i), named, true));
         let all = least.chain(most.map(|(i, named)| (DesignPart::AtMost(i), named, false)));
         let mut bounds = Vec::new();
+        let parameters = read.possible(mechanism);
         for (part, named, at_least) in all {
             let over = if at_least {
                 Statistic::Least
@@ -102,8 +103,26 @@ impl<'a> Judge<'a> {
             let text = named.name.value.clone();
             let figure = figure.ok_or_else(|| DesignProblem::NoFigure { text }.at(part))?;
             let bound = in_unit(mechanism, figure.unit, &named.value);
+            let bound = bound.map_err(|problem| problem.of_value(part))?;
+            let possible = figure.possible(&parameters);
+            let slack = SLACK * (1.0 + bound.abs());
+            let (best, beyond) = match at_least {
+                true => (possible.high, possible.high < bound - slack),
+                false => (possible.low, possible.low > bound + slack),
+            };
+            if beyond {
+                let (name, unit) = (named.name.value.clone(), figure.unit);
+                let problem = DesignProblem::Impossible {
+                    name,
+                    unit,
+                    bound,
+                    best,
+                    at_least,
+                };
+                return Err(problem.of_value(part));
+            }
             bounds.push(FigureBound {
-                bound: bound.map_err(|problem| problem.of_value(part))?,
+                bound,
                 figure,
                 at_least,
             });

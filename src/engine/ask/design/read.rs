@@ -1,14 +1,17 @@
 //! The parts of a design question, resolved.
 
-use super::figure::no_quantity;
+use super::figure::{in_unit, no_quantity};
+use super::weights::Weights;
 use super::{Design, DesignError};
 use crate::algebra::{Measure, SiUnit};
+use crate::analysis::design::{Deviation, FoundEnd};
 use crate::ask::{Question, study};
 use crate::description::{
     Description, DesignDescription, DesignPart, DesignProblem, Entry, Named, Problem, ProblemKind,
     Role, nearest,
 };
 use crate::mechanism::{Measured, Mechanism, Quantity};
+use crate::number::Interval;
 use crate::number::tolerance::SAME;
 use crate::system::{Bundle, Held, Target, Value};
 
@@ -24,6 +27,8 @@ pub(super) struct VariedNumber {
 pub(super) struct Read {
     pub varied: Vec<VariedNumber>,
     pub targets: Vec<Target>,
+    /// By how much each target may be missed.
+    pub tolerances: Vec<Option<f64>>,
     pub held: Held<f64>,
     /// The first driven joint.
     pub driver: Option<usize>,
@@ -103,6 +108,9 @@ impl Read {
             return Err(DesignProblem::NoPositions.at(DesignPart::Whole));
         }
         let mut targets = Vec::new();
+        let mut tolerances = Vec::new();
+        let weights = Weights::of(&asked.weights, DesignPart::Weight, asked, boxed)?;
+        let allowed = Weights::of(&asked.tolerances, DesignPart::Tolerance, asked, boxed)?;
         for (k, position) in asked.positions.iter().enumerate() {
             if position.is_empty() {
                 let position = k + 1;
@@ -110,7 +118,13 @@ impl Read {
             }
             for (i, named) in position.iter().enumerate() {
                 let part = DesignPart::Position(k, i);
-                targets.extend(targets_of(mechanism, (k, k >= boxed), named, part)?);
+                for mut target in targets_of(mechanism, (k, k >= boxed), named, part)? {
+                    let weight = weights.value(mechanism, named, &target)?;
+                    let tolerance = allowed.value(mechanism, named, &target)?;
+                    target.weight *= weight.unwrap_or(1.0) / tolerance.unwrap_or(1.0);
+                    targets.push(target);
+                    tolerances.push(tolerance);
+                }
             }
             let near = |(a, b): (&Target, &Target)| {
                 let unit = match a.quantity.unit == SiUnit::METRE {
@@ -128,6 +142,14 @@ impl Read {
                 let problem = DesignProblem::SamePositions { first, second };
                 return Err(problem.at(DesignPart::Position(k, 0)));
             }
+        }
+        // one weight is the largest
+        let weighed = !asked.weights.is_empty() || !asked.tolerances.is_empty();
+        let aims = || targets.iter().filter(|of| !of.exact);
+        let most = aims().map(|of| of.weight).fold(0.0, f64::max);
+        if weighed && most > 0.0 {
+            let aims = targets.iter_mut().filter(|of| !of.exact);
+            aims.for_each(|of| of.weight /= most);
         }
         let used = |parameter: usize| {
             let of = |target: &Target| {
@@ -160,6 +182,7 @@ impl Read {
             size: size(mechanism, &targets),
             varied,
             targets,
+            tolerances,
             held,
             driver,
         })
@@ -167,6 +190,37 @@ impl Read {
 
     pub(super) fn ranges(&self) -> Vec<(f64, f64)> {
         self.varied.iter().map(|of| of.range).collect()
+    }
+
+    /// The values that all parameters of the mechanism can have in the ranges.
+    pub(super) fn possible(&self, mechanism: &Mechanism) -> Vec<Interval> {
+        let independent = mechanism.independent_parameters().into_iter();
+        let value = |i: usize| match self.varied.iter().find(|of| of.parameter == i) {
+            Some(of) => Interval {
+                low: of.range.0,
+                high: of.range.1,
+            },
+            None => Interval::point(mechanism.parameters()[i].value),
+        };
+        let values: Vec<Interval> = independent.map(value).collect();
+        let any = Interval {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+        };
+        let all = mechanism.parameters_from(&values);
+        all.unwrap_or_else(|_| vec![any; mechanism.parameters().len()])
+    }
+
+    /// What is left of the targets.
+    pub(super) fn missed(&self, bundle: &Bundle, found: &FoundEnd) -> Option<Vec<Deviation>> {
+        let deviations = bundle.deviations(&found.at)?;
+        let all = deviations.into_iter().zip(&self.tolerances);
+        let aims = all.filter(|((target, _), _)| !target.exact);
+        let missed = aims.map(|((target, deviation), tolerance)| Deviation {
+            tolerance: *tolerance,
+            ..Deviation::of(target, deviation)
+        });
+        Some(missed.collect())
     }
 
     /// Closures and targets of all positions.
@@ -317,25 +371,6 @@ fn targets_of(
         });
     }
     Ok(targets)
-}
-
-/// The value of an entry for a quantity of some unit.
-pub(super) fn in_unit(
-    mechanism: &Mechanism,
-    unit: SiUnit,
-    entry: &Entry,
-) -> Result<f64, DesignProblem> {
-    let measure = match unit {
-        SiUnit::RADIAN => Measure::Angle,
-        SiUnit::METRE => Measure::Length,
-        _ => Measure::Number,
-    };
-    let text = entry.expression.to_string();
-    let read = Value::Text(text.clone()).number(mechanism, measure);
-    read.map_err(|error| {
-        let why = error.to_string();
-        DesignProblem::Value { text, why }
-    })
 }
 
 /// The extent of the lengths among the targets, or without any the mechanism's own.

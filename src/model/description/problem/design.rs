@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::Problem;
 use crate::algebra::SiUnit;
-use crate::description::DesignPart;
+use crate::description::{DesignPart, count};
 
 /// Reasons for which a design question has no answer. Lengths are in m, angles in rad.
 #[derive(Debug, Clone, Error, PartialEq)]
@@ -39,12 +39,36 @@ pub enum DesignProblem {
         why: String,
         suggestion: Option<String>,
     },
+    #[error("no position has a target `{name}`")]
+    NoTarget {
+        name: String,
+        suggestion: Option<String>,
+    },
+    #[error("`{name}` is given, and is met exactly")]
+    IsGiven { name: String },
+    #[error("`{text}` is not positive")]
+    NotPositive { text: String },
+    #[error("`{name}` has {values} values for {}", count(*.positions, "position"))]
+    NotForEach {
+        name: String,
+        values: usize,
+        positions: usize,
+    },
     #[error("`{name}` is no point, and has {count} coordinates")]
     NotAPoint { name: String, count: usize },
     #[error("`{name}` is a rate, a force or a figure, which a position alone does not have")]
     NotOfPosition { name: String },
     #[error("`{text}` is no figure of a quantity over the motion")]
     NoFigure { text: String },
+    #[error("`{name}` shall be {} {}, and is {} {} in these ranges", sense(*.at_least), said(*.bound, *.unit), sense(!*.at_least), said(*.best, *.unit))]
+    Impossible {
+        name: String,
+        unit: SiUnit,
+        bound: f64,
+        /// The value beyond which it never is.
+        best: f64,
+        at_least: bool,
+    },
     #[error("a design has one goal, `minimise` or `maximise`")]
     TwoGoals,
     #[error("no mechanism in these ranges can be assembled in all positions ({tried} were tried{})", missed(.nearest))]
@@ -71,14 +95,24 @@ fn missed(nearest: &Option<MissedTarget>) -> String {
     let Some(of) = nearest else {
         return String::new();
     };
-    let by = of.by.abs();
-    let (by, unit) = match of.unit.is_angle() {
-        true => (by.to_degrees(), "°".to_owned()),
-        false => (by, format!(" {}", of.unit)),
-    };
-    let by = format!("{by:.3e}").parse().unwrap_or(by);
+    let by = said(of.by.abs(), of.unit);
     let (quantity, position) = (&of.quantity, of.position);
-    format!("; the nearest misses `{quantity}` in position {position} by {by}{unit}")
+    format!("; the nearest misses `{quantity}` in position {position} by {by}")
+}
+
+/// A value of four digits with its unit.
+fn said(value: f64, unit: SiUnit) -> String {
+    let (value, unit) = match unit {
+        _ if unit.is_angle() => (value.to_degrees(), "°".to_owned()),
+        SiUnit::ONE => (value, String::new()),
+        _ => (value, format!(" {unit}")),
+    };
+    let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    format!("{value}{unit}")
+}
+
+fn sense(at_least: bool) -> &'static str {
+    if at_least { "at least" } else { "at most" }
 }
 
 impl DesignProblem {
@@ -107,6 +141,12 @@ impl DesignProblem {
             Self::Value { .. } => "write a number or an expression such as `60 deg`".into(),
             Self::Reversed { .. } => "write the least value first".into(),
             Self::Quantity { suggestion, .. } => near(suggestion)?,
+            Self::NoTarget { suggestion, .. } => {
+                near(suggestion).unwrap_or_else(|| "write the name of a target as the positions do".into())
+            }
+            Self::IsGiven { .. } => "leave it out: only targets are weighed".into(),
+            Self::NotPositive { .. } => "write a positive value, or leave out the target".into(),
+            Self::NotForEach { .. } => "write one value for all positions, or one for each".into(),
             Self::Motion { .. } => return None,
             Self::NotAPoint { .. } => {
                 "give coordinates to a frame or a body, such as `coupler` or `coupler+u,v`".into()
@@ -119,6 +159,7 @@ impl DesignProblem {
                  `straightness` of a point"
                     .into()
             }
+            Self::Impossible { .. } => "ask for less, or widen the ranges of what varies".into(),
             Self::TwoGoals => "leave one out, or bound it by `at_least` or `at_most`".into(),
             Self::NothingAssembles { .. } => {
                 "widen the ranges, or ask for positions that the mechanism can reach".into()

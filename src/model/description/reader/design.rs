@@ -19,7 +19,14 @@ impl DesignDescription {
                 "motion"
             ],
             &[
-                "at_least", "at_most", "minimise", "maximise", "outputs", "order"
+                "weights",
+                "tolerances",
+                "at_least",
+                "at_most",
+                "minimise",
+                "maximise",
+                "outputs",
+                "order"
             ]
         ),
     };
@@ -50,6 +57,8 @@ impl FileReader {
                 let expected = Expected::Said("a list of positions `{…}`");
                 self.list(piece, expected, Self::position)
             }),
+            weights: self.named(f, "weights", Noun::Target, Self::each),
+            tolerances: self.named(f, "tolerances", Noun::Target, Self::each),
             contains: self.named(f, "contains", Noun::Target, |reader, piece| {
                 reader.vector(piece, Expected::RANGE)
             }),
@@ -93,6 +102,14 @@ impl FileReader {
         small
             .or(great)
             .map(|figure| DesignGoal { figure, greatest })
+    }
+
+    /// One entry, or a list of them.
+    fn each(&mut self, piece: Piece) -> Option<Vec<Entry>> {
+        match piece.shape() {
+            PieceShape::List => Some(self.list(piece, Expected::ENTRY, Self::entry)),
+            _ => Some(vec![self.entry(piece)?]),
+        }
     }
 
     fn position(&mut self, piece: Piece) -> Option<Vec<Named<Vec<Entry>>>> {

@@ -112,7 +112,11 @@ impl Judge<'_> {
                 see(self.moved(mechanism, (first, long), &way(&starts, end), defects)?);
             }
         }
-        Some(all)
+        // ranges of one value are no motion
+        match all.iter().any(Vec::is_empty) {
+            true => Some(self.at_positions(mechanism, &positions[..1])),
+            false => Some(all),
+        }
     }
 
     /// Moves the driven joints of a mechanism with several freedoms straight from each position to the next, and inputs through the
