@@ -975,6 +975,14 @@ fn forces_are_those_of_the_library() {
             }
         }
     }
+    let posed = load("loads/stewart_payload")
+        .free("actuated")
+        .hold("top", "home");
+    let refused = with_forces(&posed).unwrap_err();
+    assert!(
+        matches!(refused, AskError::NoSolver(NoSolver::PlatformAngle(_))),
+        "{refused}"
+    );
     let rubs = with_forces(&load("loads/toggle_press")).unwrap_err();
     assert_eq!(rubs, AskError::NoSolver(NoSolver::Friction));
     assert!(with_forces(&load("loads/toggle_press").without("friction")).is_ok());
