@@ -934,3 +934,24 @@ fn grippers_of_sdf_are_passed_over() {
     assert!(remarks(&imported).contains("1 element ignored: `gripper`"));
     closes(&question, ["A", "B", "D"]);
 }
+
+/// What MuJoCo's and Gazebo's reader passes over, strict XML does not have: `--` in a comment.
+#[test]
+fn comments_may_hold_dashes() {
+    let text = slider_crank("", "", 0.0);
+    let with = |comment: &str| text.replacen("<worldbody>", &format!("{comment}<worldbody>"), 1);
+    let plain = read(&text).0.description;
+    for comment in ["<!-- ---- arm -- -->", "<!--- a --->", "<!---->"] {
+        assert_eq!(read(&with(comment)).0.description, plain, "{comment}");
+    }
+    assert!(refused(&with("<!-- a -- ")).contains("not XML"));
+}
+
+#[test]
+fn a_part_of_a_model_and_a_name_given_twice_are_refused() {
+    let part = refused("<mujocoinclude/>");
+    assert!(part.contains("give the file that includes it"), "{part}");
+    let twice = r#"<mujoco><worldbody><body name="a"><joint/></body><body name="a"><joint/></body></worldbody></mujoco>"#;
+    let twice = refused(twice);
+    assert!(twice.contains("there are two bodies `a`"), "{twice}");
+}

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::mjcf::{self, Files, NotRead};
 use super::names::fit;
+use super::page::{document, strict};
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
 use super::rods::without_rods;
@@ -126,9 +127,9 @@ pub fn import(
         problems: problems.into_iter().map(|problem| (0, problem)).collect(),
     };
     let whole = |kind: ImportProblemKind| wrong(vec![kind.anywhere()]);
-    // blanks before the declaration, which other readers pass over, move to behind it
-    let text = &super::page::declared_first(text);
-    let page = super::page::document(text).map_err(|problem| wrong(vec![problem]))?;
+    let text = &strict(text.to_owned());
+    let files = &|file: &str| files(file).map(strict);
+    let page = document(text).map_err(|problem| wrong(vec![problem]))?;
     let (tree, mut remarks) = match page.root_element().tag_name().name() {
         "robot" => urdf::read(text).map_err(wrong)?,
         "mujoco" => {

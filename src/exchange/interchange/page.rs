@@ -1,6 +1,5 @@
 //! An XML text being read: its elements and their problems.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use quick_xml::Reader;
@@ -48,16 +47,25 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
     })
 }
 
-/// The text without a declaration that is not at its beginning; everything else keeps its place.
-pub(super) fn declared_first(text: &str) -> Cow<'_, str> {
-    let start = text.len() - text.trim_start().len();
-    match text[start..].find("?>") {
-        Some(end) if start > 0 && text[start..].starts_with("<?xml ") => {
-            let blank = " ".repeat(end + 2);
-            Cow::Owned([&text[..start], &blank, &text[start + end + 2..]].concat())
+/// The text as strict XML, with everything in its place: other readers pass over blanks before the declaration, and over
+/// `--` in comments.
+pub(super) fn strict(mut text: String) -> String {
+    let mut at = 0;
+    while let Some(start) = text[at..].find("<!--").map(|found| at + found + 4) {
+        let end = text[start..].find("-->").map_or(text.len(), |n| start + n);
+        let comment = &text[start..end];
+        if comment.contains("--") || comment.ends_with('-') {
+            let comment = comment.replace('-', "~");
+            text.replace_range(start..end, &comment);
         }
-        _ => Cow::Borrowed(text),
+        at = end;
     }
+    let start = text.len() - text.trim_start().len();
+    let end = text[start..].find("?>").map_or(0, |end| start + end + 2);
+    if start > 0 && text[start..].starts_with("<?xml ") {
+        text.replace_range(start..end, &" ".repeat(end - start));
+    }
+    text
 }
 
 /// Refuses elements that are nested too deeply.

@@ -77,7 +77,7 @@ pub enum ImportProblemKind {
     },
     #[error("linkwork cannot read {what}")]
     Unsupported { what: String, help: &'static str },
-    #[error("there are two {noun}s `{name}`")]
+    #[error("there are two {} `{name}`", plural(noun))]
     Duplicate { noun: &'static str, name: String },
     #[error("there is no {noun} `{name}`")]
     Unknown {
@@ -127,6 +127,13 @@ pub enum ImportProblemKind {
     NothingMoves,
 }
 
+fn plural(noun: &str) -> String {
+    match noun.strip_suffix('y') {
+        Some(stem) => format!("{stem}ies"),
+        None => format!("{noun}s"),
+    }
+}
+
 impl ImportProblemKind {
     /// A hint on how to correct it.
     pub fn help(&self) -> Option<String> {
@@ -149,6 +156,9 @@ impl ImportProblemKind {
                 return Some(format!("give the axis a direction, such as {example}"));
             }
             Self::TooDeep { .. } => "remove the nesting",
+            Self::NotThisFormat { found, .. } if found == "mujocoinclude" => {
+                "this is a part of a model: give the file that includes it"
+            }
             Self::Empty | Self::NotThisFormat { .. } => {
                 "linkwork reads URDF, which begins with `robot`, MJCF, which begins with `mujoco`, and SDF, which begins with \
                  `sdf`"
