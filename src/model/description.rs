@@ -38,7 +38,7 @@ pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use files::{FileError, LoadError, load, load_text, load_text_within, text_from};
 pub use lines::Lines;
-pub use literals::{Literal, rounding_of_text, roundings};
+pub use literals::{Literal, WrittenVector, rounding_of_text, roundings};
 pub use naming::variable_name;
 pub use naming::{GivenNames, first_free, free_variable};
 pub use naming::{names_of, place_of};

@@ -7,6 +7,7 @@
 //! shared unknowns, the change of each measured by its own rounding). A structure does not pass: along the way of a shaky one
 //! what is left grows with the square of the way, and a frame that only nearly closes needs a larger change.
 
+mod directions;
 mod explained;
 mod parts;
 mod snap;
@@ -193,7 +194,8 @@ impl<'a> Numbers<'a> {
         if let ClosedPart::Undecided(_) = plain {
             return Some(plain);
         }
-        let meant = self.meant(part);
+        let mut meant = self.meant(part);
+        meant.extend(self.parallel(part));
         let mut all = self.equal(part);
         if !all.is_empty() {
             all.extend(&meant);
