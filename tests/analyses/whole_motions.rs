@@ -1,15 +1,19 @@
 //! What is said of a whole motion does not depend on how many rows are asked for.
 
 use std::f64::consts::TAU;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use linkwork::analysis::sweep::{Extremum, Law, MotionReport, Pace, SweepSettings};
+use linkwork::analysis::sweep::{Extremum, Law, MotionReport, Pace, SweepEnd, SweepSettings};
 use linkwork::ask::Question;
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
 
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
 fn load(name: &str) -> Mechanism {
-    linkwork::load(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
+    linkwork::load(file(name)).unwrap()
 }
 
 fn four_bar() -> Question {
@@ -82,6 +86,105 @@ fn extremes_are_those_of_the_curve() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn the_greatest_transmission_angle_is_the_right_angle_that_is_passed() {
+    // ground, crank, coupler and rocker, and from where to where the crank turns
+    let cases = [
+        ([0.9884, 1.6325, 0.8156, 1.1102], [0.408, 1.55]),
+        ([0.5284, 1.7406, 1.5984, 0.7336], [-1.06, 2.97]),
+        ([5.0, 1.0, 3.0, 4.0], [0.0, TAU]),
+    ];
+    let description = Mechanism::read(file("mechanisms/four_bar.ron")).unwrap().1;
+    for (lengths, [from, to]) in cases {
+        let names = ["l0", "l1", "l2", "l3"].iter().zip(lengths);
+        let described = names.fold(description.clone(), |of, (name, length)| {
+            of.with_parameter(name, &format!("{length:?}")).unwrap()
+        });
+        // by the law of cosines the angle is a right one where the diagonal is √(l₂² + l₃²)
+        let diagonal = |t: f64| {
+            let [g, a, ..] = lengths;
+            (g * g + a * a - 2.0 * g * a * t.cos()).sqrt()
+        };
+        let right = lengths[2].hypot(lengths[3]);
+        let passed = (0..=1000).map(|k| diagonal(from + (to - from) * f64::from(k) / 1000.0));
+        let passed: Vec<f64> = passed.collect();
+        assert!(passed.iter().any(|d| *d < right) && passed.iter().any(|d| *d > right));
+        let question = Question::new(Mechanism::new(&described).unwrap())
+            .input("theta1", from, to)
+            .report("transmission");
+        let motion = moved(&question, 1, Law::Constant, false);
+        let [_, greatest] = values(&motion.extremes[0]);
+        assert!(
+            (greatest - TAU / 4.0).abs() < 1e-9,
+            "{lengths:?}: {greatest}"
+        );
+    }
+}
+
+/// Branches go through a crossing smoothly, though no place beside it tells them apart.
+#[test]
+fn what_meets_a_crossing_is_bounded_up_to_it() {
+    let parallelogram = Question::new(load("mechanisms/parallelogram.ron"))
+        .input("theta1", -0.7, 0.7)
+        .report("phi1 - theta1, velocity:phi1/velocity:theta1, left.2.yaw, right.y");
+    // (L² − S²)/(2g), on a line through the fixed hinges; C and D are one above and below where the rhombus is flat
+    let flat: f64 = 2.0 * (21.0f64.sqrt() / 5.0).acos();
+    let inversor = Question::new(load("mechanisms/peaucellier.ron"))
+        .input("theta", -TAU / 6.0, TAU / 6.0)
+        .report("lower.x, lower.y, velocity:lower.x");
+    let height = |angle: f64| 4.2 * (0.5 * angle).tan();
+    let cases = [
+        (
+            parallelogram,
+            vec![[0.0; 2], [1.0; 2], [0.0; 2], [-2.0 * 0.7f64.sin(), 0.0]],
+        ),
+        (
+            inversor,
+            vec![[4.2; 2], [height(-TAU / 6.0), height(-flat)], [0.0; 2]],
+        ),
+    ];
+    for (question, wanted) in cases {
+        for steps in [1, 100] {
+            let motion = moved(&question, steps, Law::Constant, false);
+            assert_eq!(motion.sweep.ending, SweepEnd::Crossing);
+            for (found, wanted) in motion.extremes.iter().zip(&wanted) {
+                assert!(!found.at_least && found.unbounded.is_empty(), "{found:?}");
+                assert_eq!(
+                    found.constant.is_some(),
+                    wanted[0] == wanted[1],
+                    "{found:?}"
+                );
+                for (found, wanted) in values(found).iter().zip(wanted) {
+                    assert!((found - wanted).abs() < 1e-8, "{found} {wanted}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_force_that_acts_for_an_instant_is_bounded() {
+    // the ratio of the rates of rocker and crank by the law of sines, at the place where the moment acts
+    let at = 1.234567;
+    let (joint, pivot): ([f64; 2], [f64; 2]) = ([f64::cos(at), f64::sin(at)], [5.0, 0.0]);
+    let diagonal = (pivot[0] - joint[0]).hypot(joint[1]);
+    let sight = (joint[1]).atan2(joint[0] - pivot[0]);
+    let rocker = sight - ((16.0 + diagonal * diagonal - 9.0) / (8.0 * diagonal)).acos();
+    let end = [pivot[0] + 4.0 * rocker.cos(), 4.0 * rocker.sin()];
+    let coupler = (end[1] - joint[1]).atan2(end[0] - joint[0]);
+    let ratio = (coupler - at).sin() / (4.0 * (coupler - rocker).sin());
+    for (width, off) in [(3000.0, 1e-6), (300.0, 1e-4), (30.0, 1e-2)] {
+        let load = format!("20 N*m*exp(-({width}*(theta1 - {at}))^2)");
+        let question = four_bar().load("phi1", load).report("force:theta1");
+        let motion = moved(&question, 1, Law::Constant, false);
+        let found = &motion.extremes[0];
+        assert!(!found.at_least, "{found:?}");
+        let [least, greatest] = values(found);
+        assert!((least + 20.0 * ratio).abs() < 20.0 * off, "{least} {ratio}");
+        assert!(greatest.abs() < 1e-12, "{greatest}");
     }
 }
 

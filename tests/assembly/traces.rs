@@ -49,6 +49,19 @@ fn the_report_says_where_dimensions_kept_their_relations() {
 }
 
 /// Where the known bound is reached it is enough, and nothing is asked.
+/// 18 by Waldron and Sreenivasan (1996), and as the intersections of two coupler curves that are not circular points.
+#[test]
+fn the_double_butterfly_closes_in_eighteen_ways() {
+    let folder = env!("CARGO_MANIFEST_DIR");
+    let mechanism = || linkwork::load(format!("{folder}/tests/data/double_butterfly.ron")).unwrap();
+    for seed in 1..=5 {
+        let report = asked(mechanism(), seed);
+        // the real ones by a scan of both coupler curves
+        assert_eq!((report.real, report.complex), (14, 18), "seed {seed}");
+        assert!(report.traced && !report.may_lack_some());
+    }
+}
+
 #[test]
 fn a_known_bound_needs_no_trace_test() {
     let report = asked(shipped("planar_3rpr"), 1);

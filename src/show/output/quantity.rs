@@ -136,9 +136,15 @@ pub(super) fn ranges(of: &[Bound]) -> String {
     listed(of.iter().map(|of| range(&of.name, of.from, of.to, of.unit)))
 }
 
-/// `(0, 0.5, -1)`, with four decimals at most.
+/// `(0, 0.5, -1)`, with four decimals at most; with more where all are small.
 pub(super) fn triple(v: &[f64; 3]) -> String {
-    format!("({})", v.map(short).join(", "))
+    let size = v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let one = |x: &f64| match size < 0.01 {
+        true if x.abs() < 1e-4 * size => "0".into(),
+        true => number(*x),
+        false => short(*x),
+    };
+    format!("({})", v.each_ref().map(one).join(", "))
 }
 
 /// Numbers in ascending order, those that follow one another as `1 to 4`.

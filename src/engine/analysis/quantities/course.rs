@@ -1,13 +1,15 @@
 //! The curve of a motion, with polynomials of all that its quantities are made of.
 
+mod crossings;
 mod pieces;
 mod places;
+mod samples;
 
 use std::f64::consts::{PI, TAU};
 
 use super::meter::{Meter, Name, evaluated, has_atan2, turns};
 use crate::algebra::Expression;
-use crate::analysis::sweep::{Passage, Row, Sample, Stretch};
+use crate::analysis::sweep::{MetKind, Passage, Row, Stretch};
 use crate::mechanism::{Configuration, Quantity};
 use crate::number::{Number, Taylor};
 
@@ -20,6 +22,10 @@ pub(crate) struct Course<'m> {
     last: Option<(Configuration<f64>, f64, bool)>,
     names: Vec<Name>,
     pub pieces: Vec<StretchPiece>,
+    /// The numbers of the stretches that begin, or would begin, where branches cross.
+    crossings: Vec<usize>,
+    /// The largest value of each name that was seen.
+    most: Vec<f64>,
     /// True if all of it was examined.
     pub whole: bool,
 }
@@ -34,10 +40,22 @@ pub(crate) struct StretchPiece {
     terms: Vec<[f64; TERMS]>,
     /// The most by which each may be off.
     noise: Vec<f64>,
-    /// True if each is no such polynomial: it has a pole or a kink, or no value in places.
-    rough: Vec<bool>,
+    fits: Vec<Fitted>,
     /// The terms of each work.
     works: Vec<[f64; WORK_TERMS]>,
+}
+
+/// How far a polynomial is that of a name on a piece.
+#[derive(Clone, Copy, PartialEq)]
+enum Fitted {
+    /// As near as values are known.
+    Near,
+    /// Near, and halving the piece does not bring it nearer: values are rounded, or there is a kink.
+    Rounded,
+    /// Beside a crossing: it is that of a longer part of the curve.
+    Continued,
+    /// Not at all: there is a pole, or no value in places.
+    Rough,
 }
 
 /// A part of a piece, from s = middle − radius to middle + radius.
@@ -59,22 +77,28 @@ impl<'m> Course<'m> {
             passage,
             stretches: Vec::new(),
             last: None,
+            most: vec![0.0; names.len()],
             names,
             pieces: Vec::new(),
+            crossings: Vec::new(),
             whole: true,
         }
     }
 
-    /// Continues to the next place of the curve. `fold` says whether the inputs turn back there.
-    pub fn reach(&mut self, row: &Row, time: f64, fold: bool) {
+    /// Continues to the next place of the curve, which may be a dead point of the inputs or a crossing.
+    pub fn reach(&mut self, row: &Row, time: f64) {
         /// Stretches of which the polynomials fit into memory.
         const MOST: usize = 100_000;
         let at = row.configuration;
+        let fold = matches!(row.special, Some(MetKind::Fold { .. }));
+        let crosses = matches!(row.special, Some(MetKind::Crossing { .. }));
         if let Some((before, gone, folds)) = &mut self.last {
             let ends = [before.clone(), at.clone()];
             let stretch = self.passage.stretch(ends, [*gone, time], fold || *folds);
             if stretch.is_place() {
                 *folds |= fold;
+                self.crossings
+                    .extend(crosses.then_some(self.stretches.len()));
                 return;
             }
             match self.stretches.len() < MOST {
@@ -82,6 +106,8 @@ impl<'m> Course<'m> {
                 false => self.whole = false,
             }
         }
+        self.crossings
+            .extend(crosses.then_some(self.stretches.len()));
         self.last = Some((at.clone(), time, fold));
     }
 
@@ -124,18 +150,8 @@ impl<'m> Course<'m> {
 
     /// A name over a part of a piece; the last is the time.
     fn name(&self, name: usize, at: PieceRange) -> Taylor {
-        let mut terms = self.pieces[at.piece].terms[name];
-        // the polynomial about the middle, by Horner's rule again and again
-        for k in 0..TERMS {
-            for i in (k..TERMS - 1).rev() {
-                terms[i] += at.middle * terms[i + 1];
-            }
-        }
-        let mut power = 1.0;
-        for term in &mut terms {
-            *term *= power;
-            power *= at.radius;
-        }
+        let terms = self.pieces[at.piece].terms[name];
+        let terms = about(terms, at.middle, at.radius);
         let mut model = Taylor::zero();
         let count = model.terms.len();
         model.terms.copy_from_slice(&terms[..count]);
@@ -222,78 +238,39 @@ impl<'m> Course<'m> {
         true
     }
 
-    /// Places between which an expression is off a straight line by far less than a tolerance, or changes by more than
-    /// twice that; and whether that is so everywhere.
-    pub fn samples(&self, of: &Sought, tolerance: f64) -> (Vec<Sample>, bool) {
-        /// The number of parts examined, beside the pieces themselves.
-        const PATIENCE: usize = 1_000_000;
-        /// Distance from a straight line, relative to the tolerance.
-        const OFF: f64 = 1e-3;
-        let mut samples: Vec<Sample> = Vec::new();
-        let patience = PATIENCE + 8 * self.pieces.len();
-        let whole = self.walk(of, patience, &mut |part, model| {
-            let place = |t: f64| {
-                let s = part.middle + t * part.radius;
-                let (stretch, gone) = self.place(part.piece, s);
-                (stretch as f64 + gone, self.time_at(part.piece, s))
-            };
-            let Some(model) = model.filter(|model| model.rest.is_finite()) else {
-                let wanted = model.is_some() && !self.is_narrow(part);
-                if !wanted {
-                    samples.push((place(0.0).0, None));
-                }
-                return wanted;
-            };
-            let bend = model.bend();
-            let leaves = model.terms[1].abs() - bend > 2.0 * tolerance;
-            if bend > OFF * tolerance && !leaves && !self.is_narrow(part) {
-                return true;
-            }
-            for t in [-1.0, 1.0] {
-                let (place, time) = place(t);
-                if samples
-                    .last()
-                    .is_none_or(|(last, of)| *last < place || of.is_none())
-                {
-                    samples.push((place, Some([time, model.at(t)])));
-                }
-            }
-            false
-        });
-        let hidden = (0..self.pieces.len()).any(|piece| self.hides(of, piece));
-        (samples, whole && self.whole && !hidden)
-    }
-
-    /// The places of a point, of which the coordinates have these numbers, along the curve.
-    pub fn path(&self, axes: [usize; 3]) -> Vec<(f64, [f64; 3])> {
-        /// Parts examined on each piece.
-        const COUNT: u32 = 32;
-        let pieces = 0..self.pieces.len();
-        let all = pieces.flat_map(|piece| {
-            (0..=COUNT).map(move |k| {
-                let s = 2.0 * f64::from(k) / f64::from(COUNT) - 1.0;
-                let (stretch, part) = self.place(piece, s);
-                let at = axes.map(|axis| polynomial(&self.pieces[piece].terms[axis], s));
-                (stretch as f64 + part, at)
-            })
-        });
-        let known = all.filter(|(_, at)| at.iter().all(|x| x.is_finite()));
-        let mut known: Vec<(f64, [f64; 3])> = known.collect();
-        // where one piece ends the next begins
-        known.dedup_by(|after, before| after.0 == before.0);
-        known
-    }
-
     /// True if a piece may hide values of a quantity: a name in it is no polynomial there, and it is not a mere place.
     pub fn hides(&self, of: &Sought, piece: usize) -> bool {
         let [begin, end] = self.pieces[piece].span;
         self.is_rough(of, piece) && end - begin > 1e-9
     }
 
+    fn has(&self, of: &Sought, piece: usize, fitted: Fitted) -> bool {
+        let fits = &self.pieces[piece].fits;
+        of.program.names().any(|(name, _)| fits[*name] == fitted)
+    }
+
     /// True if a name in a quantity is no polynomial on a piece.
     pub fn is_rough(&self, of: &Sought, piece: usize) -> bool {
-        let rough = &self.pieces[piece].rough;
-        of.program.names().any(|(name, _)| rough[*name])
+        self.has(of, piece, Fitted::Rough)
+    }
+
+    /// True if a name in a quantity is known beside a crossing from farther away: what is read there says less.
+    pub fn is_continued(&self, of: &Sought, piece: usize) -> bool {
+        self.has(of, piece, Fitted::Continued)
+    }
+
+    /// The part of a stretch on either side of a place of a piece where the best value near it may be.
+    pub fn beside(&self, of: &Sought, piece: usize) -> Option<f64> {
+        /// As a part of the piece.
+        const BESIDE: f64 = 0.02;
+        if self.is_continued(of, piece) {
+            return None;
+        }
+        // the polynomial of a piece with a kink may not reach up to it, and then a neighbour has the best value
+        let kinked = (piece.saturating_sub(1)..(piece + 2).min(self.pieces.len()))
+            .filter(|k| self.has(of, *k, Fitted::Rounded))
+            .map(|k| self.width(k));
+        Some(kinked.fold(BESIDE * self.width(piece), f64::max))
     }
 
     /// True if names do not differ by more than rounding from one end of a part to the other.
@@ -335,6 +312,22 @@ fn within([begin, end]: [f64; 2], s: f64) -> f64 {
         1.0 => end,
         _ => begin + 0.5 * (s + 1.0) * (end - begin),
     }
+}
+
+/// The terms of a polynomial in t, where s = middle + radius · t.
+fn about(mut terms: [f64; TERMS], middle: f64, radius: f64) -> [f64; TERMS] {
+    // by Horner's rule again and again
+    for k in 0..TERMS {
+        for i in (k..TERMS - 1).rev() {
+            terms[i] += middle * terms[i + 1];
+        }
+    }
+    let mut power = 1.0;
+    for term in &mut terms {
+        *term *= power;
+        power *= radius;
+    }
+    terms
 }
 
 fn polynomial(terms: &[f64], s: f64) -> f64 {

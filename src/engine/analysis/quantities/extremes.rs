@@ -34,7 +34,7 @@ pub(crate) fn located(
         let means = (all_means || quantity.unit.has_force())
             .then(|| means(course, of))
             .flatten();
-        let found = extremum(course, meter, (i, quantity), bounds);
+        let found = extremum(course, meter, (i, quantity, of), bounds);
         let swing = means.filter(|_| quantity.unit == SiUnit::WATT);
         Extremum {
             mean: means.map(|of| of.mean),
@@ -50,7 +50,7 @@ pub(crate) fn located(
 fn extremum(
     course: &mut Course,
     meter: &mut Meter,
-    (i, quantity): (usize, &Quantity),
+    (i, quantity, sought): (usize, &Quantity, &Sought),
     bounds: Bounds,
 ) -> Extremum {
     let none = Extremum {
@@ -96,7 +96,7 @@ fn extremum(
             value,
             stretch,
             part,
-            beside: BESIDE * course.width(piece),
+            beside: course.beside(sought, piece),
         }
     });
     let mut known: Vec<(usize, f64)> = Vec::new();
@@ -108,6 +108,10 @@ fn extremum(
     let mut suspects: Vec<(usize, f64)> = suspects.collect();
     for stretch in 0..course.stretches() {
         for part in [0.0, 1.0] {
+            let piece = course.piece(stretch, part);
+            if piece.is_some_and(|piece| course.is_continued(sought, piece)) {
+                continue;
+            }
             let value = course
                 .read(meter, (stretch, part))
                 .and_then(|(all, _)| all[i]);
@@ -130,7 +134,7 @@ fn extremum(
                     let found = FoundExtreme {
                         stretch,
                         part,
-                        beside: KINK,
+                        beside: Some(KINK),
                         ..*best
                     };
                     let found = found.refined(course, meter, i, sense);
@@ -173,9 +177,6 @@ fn extremum(
     }
 }
 
-/// The part of a piece on either side where the best value is sought again, read exactly.
-const BESIDE: f64 = 0.02;
-
 /// The part of a stretch on either side of a kink or a pole where it may be.
 const KINK: f64 = 1e-7;
 
@@ -185,13 +186,14 @@ struct FoundExtreme {
     value: f64,
     stretch: usize,
     part: f64,
-    /// Largest distance of the extreme from there.
-    beside: f64,
+    /// Largest distance of the extreme from there; `None` if it is not read again.
+    beside: Option<f64>,
 }
 
 impl FoundExtreme {
     /// The value read exactly, where it is best near the place.
     fn refined(self, course: &mut Course, meter: &mut Meter, i: usize, sense: f64) -> Option<Self> {
+        let beside = self.beside?;
         let mut read = |part: f64| {
             // the motion goes no farther
             if !(0.0..=1.0).contains(&part) {
@@ -201,7 +203,7 @@ impl FoundExtreme {
             Some(sense * course.read(meter, (self.stretch, part))?.0[i]?)
         };
         let here = read(self.part).map(|height| (self.part, height));
-        let ends = [self.part - self.beside, self.part + self.beside];
+        let ends = [self.part - beside, self.part + beside];
         let [from, to] = ends.map(|part| part.clamp(0.0, 1.0));
         let ends = [from, to].map(|part| Some((part, read(part)?)));
         // beyond an edge there is no value

@@ -161,7 +161,6 @@ impl Motions<'_> {
                 None => (row.time).unwrap_or_else(|| course.time(row.configuration)),
             };
             let ends = row.step.is_none_or(|step| step == 0 || step == steps);
-            let fold = matches!(row.special, Some(MetKind::Fold { .. }));
             // beside those of a table only what may end it: inputs that follow one are not where a straight line has them
             let passed = matches!(
                 row.special,
@@ -169,7 +168,7 @@ impl Motions<'_> {
             );
             let ends = ends && !(schedule.is_some() && passed);
             if ends {
-                course.reach(row, time, fold);
+                course.reach(row, time);
             }
             (time, ends)
         };

@@ -27,6 +27,14 @@ impl Stretch {
     pub fn is_place(&self) -> bool {
         self.reach < 1e-9 + 1e-11 && self.times[0] == self.times[1]
     }
+
+    /// The coordinate by which the way along it is measured, or `None` for the time, with the values at its ends.
+    pub fn measured(&self) -> (Option<Coordinate>, [f64; 2]) {
+        match &self.along {
+            Some(along) => (Some(along.coordinate), [along.from, along.to]),
+            None => (None, self.times),
+        }
+    }
 }
 
 /// Interpolates a motion by configurations solved on [`Stretch`]es: at a part of the way between their ends, in time
@@ -102,7 +110,8 @@ impl<'m> Passage<'m> {
         }
     }
 
-    fn far(&self, ends: [&Configuration<f64>; 2]) -> f64 {
+    /// The distance of two configurations: the largest, in rad and characteristic lengths.
+    pub fn far(&self, ends: [&Configuration<f64>; 2]) -> f64 {
         let far = |(of, scale): &(Coordinate, f64)| self.change(*of, ends).abs() / scale;
         self.scales.iter().map(far).fold(0.0, f64::max)
     }

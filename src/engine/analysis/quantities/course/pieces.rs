@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_8, TAU};
 
-use super::{Course, StretchPiece, TERMS, WORK_TERMS, polynomial, within};
+use super::{Course, Fitted, StretchPiece, TERMS, WORK_TERMS, polynomial, within};
 use crate::analysis::quantities::meter::{Meter, MeterBlock, Name};
 use crate::analysis::sweep::Row;
 use crate::mechanism::{Configuration, Measured};
@@ -22,7 +22,7 @@ struct Ahead {
 
 /// Places on a piece, in order: the extremes of the Chebyshev polynomial of that degree, and two between them where the
 /// polynomial through these is compared.
-const PLACES: usize = TERMS + 2;
+pub(super) const PLACES: usize = TERMS + 2;
 const COMPARED: [usize; 2] = [3, 6];
 
 /// The place in the middle.
@@ -34,7 +34,7 @@ const DEEPEST: u32 = 40;
 impl Course<'_> {
     /// Finds the polynomials of the names, which a meter reads.
     pub fn look(&mut self, meter: &mut Meter, watch: &Watch) {
-        let lagrange = lagrange();
+        let lagrange = lagrange(None);
         if let (true, Some((at, time, _))) = (self.stretches.is_empty(), &self.last) {
             let ends = [at.clone(), at.clone()];
             let stretch = self.passage.stretch(ends, [*time; 2], false);
@@ -54,12 +54,20 @@ impl Course<'_> {
         let mut left = 20_000 + 8 * ahead.len();
         while !ahead.is_empty() {
             let (samples, middles) = self.sampled(&ahead, meter, watch);
+            for of in samples.iter().flatten() {
+                let sizes = of.iter().map(|[value, _]| value.abs());
+                for (most, size) in self.most.iter_mut().zip(sizes) {
+                    *most = most.max(if size.is_finite() { size } else { 0.0 });
+                }
+            }
             let mut halves = Vec::new();
             for ((of, samples), middle) in ahead.into_iter().zip(samples).zip(middles) {
                 let (piece, off) = self.fitted(&of, &samples, &lagrange);
                 match middle {
                     Some(middle)
-                        if piece.rough.contains(&true) && of.depth < DEEPEST && left > 0 =>
+                        if piece.fits.contains(&Fitted::Rough)
+                            && of.depth < DEEPEST
+                            && left > 0 =>
                     {
                         left -= 1;
                         let [begin, end] = of.ends;
@@ -87,6 +95,7 @@ impl Course<'_> {
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
         };
         sort_by(&mut self.pieces, order);
+        self.continue_crossings(meter);
         // angles go on without jumps
         for name in (0..self.names.len()).filter(|name| self.names[*name].turns()) {
             let mut before: Option<f64> = None;
@@ -106,7 +115,7 @@ impl Course<'_> {
     pub fn gather(&mut self, duration: f64) {
         /// The part of the work so far that may be lost at kinks; where more is, the power has no bound.
         const LOST: f64 = 1e-9;
-        let lagrange = lagrange();
+        let lagrange = lagrange(None);
         let time = self.names.len();
         let power_of = |name: &Name| match name.of {
             Measured::Work(of) => self
@@ -138,7 +147,7 @@ impl Course<'_> {
                 }
                 let [from, to] = [-1.0, 1.0].map(|s| polynomial(&piece.terms[time], s));
                 let long = duration * (to - from).abs();
-                if piece.rough[power] {
+                if piece.fits[power] == Fitted::Rough {
                     let known = beside * long <= LOST * size || long == 0.0;
                     terms = [if known { 0.0 } else { f64::NAN }; WORK_TERMS];
                 }
@@ -177,12 +186,7 @@ impl Course<'_> {
     ) -> (Vec<Samples>, Vec<Option<Configuration<f64>>>) {
         let count = self.names.len();
         let mut read: Vec<[f64; 2]> = Vec::new();
-        let mut take = |block: &MeterBlock| {
-            for i in 0..block.len() {
-                let columns = block.columns().iter();
-                read.extend(columns.map(|of| [of.values[i], of.noise[i]]));
-            }
-        };
+        let mut take = taking(&mut read);
         let mut order = Vec::new();
         let mut middles = vec![None; ahead.len()];
         let none = vec![[f64::NAN, 0.0]; count + 1];
@@ -209,6 +213,7 @@ impl Course<'_> {
             }
         }
         meter.read_waiting(&mut take);
+        drop(take);
         for ((k, place), values) in order.into_iter().zip(read.chunks_exact(count.max(1))) {
             samples[k][place][..count].copy_from_slice(&values[..count]);
         }
@@ -222,8 +227,6 @@ impl Course<'_> {
         samples: &Samples,
         lagrange: &[[f64; TERMS]; TERMS],
     ) -> (StretchPiece, Vec<f64>) {
-        /// Largest distance of a name from its polynomial, relative to its largest value on the piece.
-        const OFF: f64 = 1e-11;
         /// Rounding near a singularity, relative to that value: halving the piece does not make it less.
         const ROUNDING: f64 = 1e-6;
         let mut all_off = Vec::new();
@@ -233,56 +236,113 @@ impl Course<'_> {
             ends: of.ends.clone(),
             terms: Vec::new(),
             noise: Vec::new(),
-            rough: Vec::new(),
+            fits: Vec::new(),
             works: Vec::new(),
         };
         let is_solved = samples.iter().all(|of| !of[self.names.len()][0].is_nan());
         for name in 0..=self.names.len() {
-            let mut values: [f64; PLACES] = std::array::from_fn(|place| samples[place][name][0]);
-            if self.names.get(name).is_some_and(Name::turns) {
-                for i in 1..PLACES {
-                    let jump = values[i] - values[i - 1];
-                    if jump.is_finite() {
-                        values[i] -= TAU * (jump / TAU).round();
-                    }
-                }
-            }
-            let mut terms = [0.0; TERMS];
-            let through = (0..PLACES).filter(|place| !COMPARED.contains(place));
-            for (basis, place) in lagrange.iter().zip(through) {
-                for (term, of_basis) in terms.iter_mut().zip(basis) {
-                    *term += values[place] * of_basis;
-                }
-            }
-            let finite = |most: f64, x: f64| if x.is_finite() { most.max(x) } else { most };
-            let largest = values.iter().map(|x| x.abs()).fold(0.0, finite);
-            let noise = samples.iter().map(|of| of[name][1]).fold(0.0, finite);
-            let off =
-                COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
-            let near = off.iter().all(|off| *off <= OFF * largest + 8.0 * noise);
-            let known = off.iter().all(|off| off.is_finite());
-            let off = off.into_iter().fold(0.0, finite);
+            let fit = self.fit(name, samples, None, lagrange);
             let before = of.off.get(name);
-            let rounded = before.is_some_and(|before| off > 0.8 * before);
-            let near = near || known && rounded && off <= ROUNDING * largest;
-            all_off.push(if known { off } else { f64::INFINITY });
+            let rounded = before.is_some_and(|before| fit.off > 0.8 * before);
+            let rounded = fit.known && rounded && fit.off <= ROUNDING * fit.largest;
+            all_off.push(if fit.known { fit.off } else { f64::INFINITY });
             // no value anywhere, though the configurations are known
-            let nowhere = values.iter().all(|x| x.is_nan()) && is_solved;
-            piece
-                .terms
-                .push(if near { terms } else { [f64::NAN; TERMS] });
-            piece.noise.push(noise + off);
-            piece.rough.push(!near && !nowhere);
+            let nowhere = samples.iter().all(|of| of[name][0].is_nan()) && is_solved;
+            let (fitted, terms) = match (fit.near, rounded) {
+                (true, _) => (Fitted::Near, fit.terms),
+                (false, true) => (Fitted::Rounded, fit.terms),
+                _ if nowhere => (Fitted::Near, [f64::NAN; TERMS]),
+                _ => (Fitted::Rough, [f64::NAN; TERMS]),
+            };
+            piece.terms.push(terms);
+            piece.noise.push(fit.may_be_off());
+            piece.fits.push(fitted);
         }
         (piece, all_off)
     }
+
+    /// The polynomial of a name through its samples, but for those at a place that is left out.
+    pub(super) fn fit(
+        &self,
+        name: usize,
+        samples: &Samples,
+        without: Option<usize>,
+        lagrange: &[[f64; TERMS]; TERMS],
+    ) -> Fit {
+        /// Largest distance of a name from its polynomial, relative to its largest value on the piece.
+        const OFF: f64 = 1e-11;
+        let mut values: [f64; PLACES] = std::array::from_fn(|place| samples[place][name][0]);
+        if self.names.get(name).is_some_and(Name::turns) {
+            for i in 1..PLACES {
+                let jump = values[i] - values[i - 1];
+                if jump.is_finite() {
+                    values[i] -= TAU * (jump / TAU).round();
+                }
+            }
+        }
+        let mut terms = [0.0; TERMS];
+        for (basis, place) in lagrange.iter().zip(through(without)) {
+            for (term, of_basis) in terms.iter_mut().zip(basis) {
+                *term += values[place] * of_basis;
+            }
+        }
+        let finite = |most: f64, x: f64| if x.is_finite() { most.max(x) } else { most };
+        let largest = values.iter().map(|x| x.abs()).fold(0.0, finite);
+        let noise = samples.iter().map(|of| of[name][1]).fold(0.0, finite);
+        let off = COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
+        let most = self.most.get(name).copied().unwrap_or(0.0);
+        let near = (OFF * largest + 8.0 * noise).max(f64::EPSILON * most);
+        Fit {
+            near: off.iter().all(|off| *off <= near),
+            known: off.iter().all(|off| off.is_finite()),
+            off: off.into_iter().fold(0.0, finite),
+            terms,
+            largest,
+            noise,
+        }
+    }
+}
+
+/// A polynomial through samples of a name.
+pub(super) struct Fit {
+    pub terms: [f64; TERMS],
+    /// The largest value among them, and the most by which one may be off.
+    pub largest: f64,
+    pub noise: f64,
+    /// The distance from the samples that it is compared with.
+    pub off: f64,
+    /// True if these have values, and if it is as near to them as rounding lets it be.
+    pub known: bool,
+    pub near: bool,
+}
+
+impl Fit {
+    /// The most by which a value may be off.
+    pub fn may_be_off(&self) -> f64 {
+        self.noise + self.off
+    }
+}
+
+/// Takes what a meter reads of names: values, and how far they may be off.
+pub(super) fn taking(read: &mut Vec<[f64; 2]>) -> impl FnMut(&MeterBlock) {
+    |block| {
+        for i in 0..block.len() {
+            let columns = block.columns().iter();
+            read.extend(columns.map(|of| [of.values[i], of.noise[i]]));
+        }
+    }
+}
+
+/// The places, but for those compared and one that is left out.
+fn through(without: Option<usize>) -> impl Iterator<Item = usize> {
+    (0..PLACES).filter(move |place| !COMPARED.contains(place) && Some(*place) != without)
 }
 
 /// For each place of a piece the names, the time at last, and how far they may be off.
-type Samples = [Vec<[f64; 2]>; PLACES];
+pub(super) type Samples = [Vec<[f64; 2]>; PLACES];
 
 /// The places on a piece, in order.
-fn places() -> [f64; PLACES] {
+pub(super) fn places() -> [f64; PLACES] {
     let at = |k: usize| -Number::sin_cos(FRAC_PI_8 * k as f64).1;
     [
         -1.0,
@@ -299,15 +359,15 @@ fn places() -> [f64; PLACES] {
     ]
 }
 
-/// The terms of the polynomials that are 1 at one of the places and 0 at the others, but for those compared.
-fn lagrange() -> [[f64; TERMS]; TERMS] {
-    let all = places();
-    let through: Vec<f64> = (0..PLACES)
-        .filter(|place| !COMPARED.contains(place))
-        .map(|place| all[place])
-        .collect();
+/// The terms of the polynomials that are 1 at one of the places and 0 at the others, but for those compared and one that
+/// is left out.
+pub(super) fn lagrange(without: Option<usize>) -> [[f64; TERMS]; TERMS] {
+    let through: Vec<f64> = through(without).map(|place| places()[place]).collect();
     std::array::from_fn(|one| {
         let mut terms = [0.0; TERMS];
+        if one == through.len() {
+            return terms;
+        }
         terms[0] = 1.0;
         for (_, other) in through.iter().enumerate().filter(|(k, _)| *k != one) {
             let scale = 1.0 / (through[one] - other);

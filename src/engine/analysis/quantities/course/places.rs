@@ -15,7 +15,7 @@ impl Course<'_> {
     }
 
     /// The number of the piece on which a part of a stretch is.
-    pub(super) fn piece(&self, stretch: usize, part: f64) -> Option<usize> {
+    pub fn piece(&self, stretch: usize, part: f64) -> Option<usize> {
         let after = (self.pieces).partition_point(|of| {
             of.stretch < stretch || of.stretch == stretch && of.span[0] <= part
         });
