@@ -437,7 +437,7 @@ fn a_platform_on_six_legs_reaches_a_box() {
 fn figures_of_a_motion_are_those_of_calculus() {
     let mechanism = std::fs::read_to_string("mechanisms/hoeken.ron").unwrap();
     let asked = r#"positions: [{ "theta1": "120 deg" }], motion: { "theta1": ("90 deg", "270 deg") }, at_least: {
-        "mean(crank*cos(theta1))": 9, "rms(crank*sin(theta1))": 9, "stroke(theta1)": 9, "dwell(theta1, 9 deg)": 9,
+        "mean(crank*cos(theta1))": 0.9, "rms(crank*sin(theta1))": 0.9, "stroke(theta1)": 9, "dwell(theta1, 9 deg)": 0.9,
         "straightness(left.2+5,0)": 9 }"#;
     let report = designed(&mechanism, asked).unwrap();
     let defects = report.designs[0].defects.iter();
