@@ -318,6 +318,89 @@ fn an_isotropic_arm_is_found() {
     assert!(error.to_string().contains("no figure"), "{error}");
 }
 
+/// A planar 3-RRR, its hinges on circles of radius R = 0.6 m on the base and r on the platform, at its centre and not turned. After
+/// Gosselin and Angeles 1988 the rows of the Jacobian from the platform to the cranks are (u, h/L)/β, with u along the outer link,
+/// h = b × u for the hinge b, L the normalising length; in all legs |h| and |β| are the same. The squares of the singular values of the
+/// rows (u, h/L) add up to 3 + 3 h²/L², and the least is no greater than that of the last column, 3 h²/L²: the largest is 3/2 at least
+/// and the condition number L/(√2 |h|), which three equal legs with |h| ≤ L/√2 have. It is 1 for |h| = L/√2. As |h| ≤ r, a platform with
+/// r < L/√2 is best with the largest r and outer links square to b, where l1² = (R − r)² + l2².
+#[test]
+fn the_best_3_rrr_is_found() {
+    let [mut joints, mut legs, mut frames, mut pins] = <[String; 4]>::default();
+    for (i, turn) in [0, 120, 240].into_iter().enumerate() {
+        joints += &format!(
+            r#""theta{i}": Actuated(home: "{} deg"), "psi{i}": Passive(home: "100 deg"), "#,
+            60 + turn
+        );
+        legs += &format!(
+            r#""leg{i}": Chain(base: [Rz("{turn} deg"), Tx("R"), Rz("-{turn} deg")],
+                rows: [(theta: "theta{i}"), (a: "l1", theta: "psi{i}")], tip: [Tx("l2")]), "#
+        );
+        frames += &format!(r#""B{i}": [Rz("{turn} deg"), Tx("r")], "#);
+        pins += &format!(r#""B{i}": Revolute("leg{i}", "top.B{i}"), "#);
+    }
+    let mechanism = format!(
+        r#"Mechanism(version: 1, name: "3-RRR", convention: Modified, parameters: {{ "R": 0.6, "r": 0.2, "l1": 0.5, "l2": 0.3 }},
+            joints: {{ {joints} }}, chains: {{ {legs} }}, platforms: {{ "top": Platform(home: [], frames: {{ {frames} }}) }},
+            closures: {{ {pins} }})"#
+    );
+    let designed = |largest: f64, goal: &str| {
+        let asked = format!(
+            r#"Design(version: 1, mechanism: "3_rrr.ron", vary: {{ "l1": (0.1, 0.6), "r": (0.05, {largest}) }},
+                positions: [{{ "top.x": 0, "top.y": 0, "top.yaw": 0 }}], {goal})"#
+        );
+        let design = Design {
+            mechanism: Description::read(&mechanism).unwrap(),
+            asked: DesignDescription::read(&asked).unwrap(),
+            starts: 6,
+            ..Design::default()
+        };
+        design.report(&Watch::none()).unwrap()
+    };
+    let ([base, outer], least) = ([0.6f64, 0.3f64], r#"minimise: "max(condition)""#);
+    let length = |file: &str| {
+        let found = Mechanism::new(&Description::read(file).unwrap()).unwrap();
+        found.characteristic_length()
+    };
+
+    // the pose is met by moving the legs: both numbers are open, and no target is too many
+    let report = designed(0.2, least);
+    assert_eq!((report.undetermined, report.surplus), (2, 0));
+    let best = &report.designs[0];
+    assert!(best.defects.is_empty(), "{:?}", best.defects);
+    let known = length(&best.file) / (2f64.sqrt() * 0.2);
+    assert!(
+        (best.goal.unwrap() - known).abs() < 1e-6 * known,
+        "{best:?}"
+    );
+    let crank = (base - 0.2).hypot(outer);
+    assert!((best.values[0] - crank).abs() < 1e-4, "{:?}", best.values);
+    assert!((best.values[1] - 0.2).abs() < 1e-6, "{:?}", best.values);
+    // nothing is better
+    let bound = format!(r#"at_most: {{ "condition": {} }}"#, 0.99 * known);
+    let report = designed(0.2, &bound);
+    let defects = &report.designs[0].defects;
+    assert!(
+        matches!(defects[..], [Defect::Condition { .. }]),
+        "{defects:?}"
+    );
+
+    // a larger platform is isotropic where the outer link has the lever arm L/√2 about the centre: it ends on the circle about A
+    let report = designed(0.6, least);
+    let best = &report.designs[0];
+    assert!((best.goal.unwrap() - 1.0).abs() < 1e-5, "{best:?}");
+    let ([crank, radius], arm) = (
+        [best.values[0], best.values[1]],
+        length(&best.file) / 2f64.sqrt(),
+    );
+    let along = outer * (1.0 - (arm / radius).powi(2)).sqrt();
+    let ends = [along, -along].map(|along| (radius - base + along).hypot(outer * arm / radius));
+    assert!(
+        ends.iter().any(|end| (end - crank).abs() < 1e-4),
+        "{ends:?} {crank}"
+    );
+}
+
 /// A plotter for a sheet of A4: of all five-bars with motors 0.2 m apart, cranks to 0.4 m and rods to 0.5 m the greatest condition number
 /// at 3 by 3 places of the sheet is 1.262779 at least, with r = 0.295 m, c = 0.5 m and the sheet 0.365 m away (closed-form inverse
 /// kinematics in all four working modes, Nelder and Mead's method from 60 starts each in double precision).

@@ -179,10 +179,10 @@ impl Design {
             defects(a).cmp(&defects(b)).then(goals)
         });
         designs.truncate(most);
-        let undetermined = searched.found.first().and_then(|found| {
-            let model = task.bundle.model(&found.at)?;
-            Some(model.open().len())
-        });
+        let best = searched.found.first();
+        let best = best.and_then(|found| task.bundle.model(&found.at));
+        let (undetermined, repeated) = best.map_or((0, 0), |of| (of.open().len(), of.repeated()));
+        let surplus = task.bundle.surplus(task.positions).unwrap_or(0) - repeated as i64;
         let parameters = mechanism.parameters();
         Ok(DesignReport {
             mechanism: mechanism.name().to_owned(),
@@ -195,9 +195,9 @@ impl Design {
                 })
                 .collect(),
             positions: task.positions,
-            surplus: (task.bundle.surplus(task.positions)).map_or(0, |of| of.max(0) as usize),
+            surplus: surplus.max(0) as usize,
             targets: read.targets.iter().filter(|of| !of.exact).count(),
-            undetermined: undetermined.unwrap_or(0),
+            undetermined,
             driver: read.driver.map(|i| mechanism.joints()[i].name.clone()),
             straight_moves: !judge.one_freedom,
             more: distinct.len() - designs.len(),

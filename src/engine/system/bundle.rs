@@ -385,6 +385,11 @@ impl Arrow {
         self.eliminated(0.0).1
     }
 
+    /// Number of closures that repeat others of the same configuration, whatever the shared numbers are.
+    pub fn repeated(&self) -> usize {
+        self.blocks.iter().map(Blocks::repeated).sum()
+    }
+
     /// Number of independent conditions of the closures on the shared numbers.
     pub fn conditions(&self) -> usize {
         self.reduced().conditions()

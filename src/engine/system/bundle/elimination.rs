@@ -1,7 +1,8 @@
 //! A configuration of a bundle, linearised and eliminated.
 
 use super::sides::SideRows;
-use crate::linear::{Svd, add, complement, dot, rank};
+use crate::linear::{Svd, add, complement, dot, norm, rank};
+use crate::number::tolerance::SUMMED;
 
 /// Closures and targets of one configuration, linearised; matrices are dense and column-major.
 #[derive(Clone, Debug)]
@@ -39,7 +40,28 @@ impl Eliminated {
     }
 }
 
+/// Makes coefficients zero that are what rounding leaves of terms of these sizes: where a configuration meets its targets by itself
+/// nothing is left for the shared numbers.
+fn cancel(row: &mut [f64], size: impl Fn(usize) -> f64) {
+    let (_, coefficients) = row.split_last_mut().expect("there is a constant");
+    for (j, x) in coefficients.iter_mut().enumerate() {
+        if x.abs() <= SUMMED * size(j) {
+            *x = 0.0;
+        }
+    }
+}
+
 impl Blocks {
+    /// Number of closures that repeat others for all values of the unknowns and the shared numbers nearby.
+    pub(super) fn repeated(&self) -> usize {
+        let rows = self.closures.len();
+        let columns = [&self.by_unknowns[..], &self.by_numbers[..]].concat();
+        let count = self.unknowns + self.numbers;
+        let mut svd = Svd::of(rows, count, &columns);
+        svd.values.truncate(rows.min(count));
+        rows - rank(&svd.values)
+    }
+
     /// Leaves out the shared numbers.
     pub(super) fn stand_still(&mut self) {
         let (unknowns, numbers) = (self.unknowns, self.numbers);
@@ -160,8 +182,13 @@ impl Blocks {
             })
             .collect();
         let conditions = redundant.iter();
-        let conditions = conditions.map(|u| columns().map(|column| dot(u, column)).collect());
-        let conditions = conditions.collect();
+        let mut conditions: Vec<Vec<f64>> = conditions
+            .map(|u| columns().map(|column| dot(u, column)).collect())
+            .collect();
+        let sizes: Vec<f64> = columns().take(self.numbers).map(norm).collect();
+        for condition in &mut conditions {
+            cancel(condition, |j| sizes[j]);
+        }
 
         // what targets become for these steps, a column for each
         let count = self.targets.len();
@@ -202,7 +229,16 @@ impl Blocks {
                 }
             }
         }
-        let targets = (0..count).map(|i| lefts.iter().map(|left| left[i]).collect());
+        let sizes: Vec<f64> = steps[..self.numbers]
+            .iter()
+            .map(|of| 1.0 + norm(of))
+            .collect();
+        let targets = self.targets.iter().enumerate().map(|(i, target)| {
+            let mut row: Vec<f64> = lefts.iter().map(|left| left[i]).collect();
+            let size = norm(&target[..unknowns + self.numbers]);
+            cancel(&mut row, |j| size * sizes[j]);
+            row
+        });
         let targets = targets.collect();
         (
             Eliminated(steps),
