@@ -273,6 +273,7 @@ def test_errors_say_where_and_what_and_the_remedy(four_bar):
         (lambda m: m.workspace({"theta1": (0, 1)}, search=1.5), "search"),
         (lambda m: m.formulas(of=3), "of"),
         (lambda m: m.compare(samples="many"), "samples"),
+        (lambda m: m.compare(samples=10**30), "samples"),
         (lambda m: m.solve_many(None), "values"),
         (lambda m: m.solve_many("1"), "values"),
         (lambda m: m.solve_many([0.5, None]), "values"),

@@ -155,6 +155,7 @@ def test_what_is_wrong_is_said(four_bar):
         ({"quantities": 3}, "quantities"),
         ({"samples": 2.5}, "samples"),
         ({"samples": True}, "samples"),
+        ({"samples": 10**30}, "samples"),
         ({"vary": ["l2"], "samples": [3.0, None]}, "samples"),
         ({"vary": ["l2"], "samples": np.ma.array([3.0, 4.0], mask=[0, 1])}, "samples"),
         ({"latin": "yes"}, "latin"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 import os
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
@@ -17,8 +18,8 @@ Wrench = Union[str, Sequence[float]]
 
 def wrong(name: str, wanted: str, given: Any) -> TypeError:
     """The error of an argument that is something else."""
-    kind = "None" if given is None else f"of the type {type(given).__name__}"
-    return TypeError(f"`{name}` is {wanted}, not {kind}")
+    kind = "None" if given is None else f"of type {type(given).__name__}"
+    return TypeError(f"`{name}` must be {wanted}, not {kind}")
 
 
 def text(name: str, given: Any) -> str:
@@ -41,7 +42,9 @@ def count(name: str, given: Any) -> int:
         raise wrong(name, "a whole number", given)
     number = operator.index(given)
     if number < 0:
-        raise ValueError(f"`{name}` is a whole number from 0 on, not {number}")
+        raise ValueError(f"`{name}` must be a whole number from 0 on, not {number}")
+    if number > sys.maxsize:
+        raise ValueError(f"`{name}` is {number}: ask for less")
     return number
 
 
@@ -81,25 +84,25 @@ def numbers(name: str, given: Any) -> npt.NDArray[np.float64]:
     """An array of real numbers. What numpy would make of gaps, imaginary parts and texts is refused."""
     wanted = "an array of real numbers"
     if isinstance(given, np.ma.MaskedArray):
-        raise TypeError(f"`{name}` is {wanted}, not a masked one: fill its gaps, `.filled(numpy.nan)`")
+        raise TypeError(f"`{name}` must be {wanted}, not a masked one: fill its gaps, `.filled(numpy.nan)`")
     if isinstance(given, (str, bytes, Mapping)) or given is None:
         raise wrong(name, wanted, given)
     try:
         array = np.asarray(given)
     except ValueError as error:
-        raise ValueError(f"`{name}` is {wanted} with rows of the same length: {error}") from None
+        raise ValueError(f"`{name}` must be {wanted} with rows of the same length: {error}") from None
     if array.dtype.kind == "O":
         for part in array.flat:
             if isinstance(part, (list, tuple)):
-                raise ValueError(f"`{name}` is {wanted} with rows of the same length")
+                raise ValueError(f"`{name}` must be {wanted} with rows of the same length")
             if isinstance(part, (bool, complex)) or not hasattr(part, "__float__"):
-                raise TypeError(f"`{name}` is {wanted}, not of {part!r}")
+                raise TypeError(f"`{name}` must be {wanted}, not of {part!r}")
         try:
             array = array.astype(np.float64)
         except OverflowError as error:
-            raise ValueError(f"`{name}` is {wanted}: {error}") from None
+            raise ValueError(f"`{name}` must be {wanted}: {error}") from None
     if array.dtype.kind not in "iuf":
-        raise TypeError(f"`{name}` is {wanted}, not of {array.dtype}")
+        raise TypeError(f"`{name}` must be {wanted}, not of {array.dtype}")
     return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
 
 
