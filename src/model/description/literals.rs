@@ -1,5 +1,7 @@
 //! The numbers of a file that are dimensions, as they are written, and how far writing has rounded them.
 
+mod vectors;
+
 use std::ops::Range;
 
 use super::steps::zero;
@@ -7,6 +9,8 @@ use super::{
     AxisKind, AxisPlace, Description, Displacement, Entry, Named, Problem, first_free, names_of,
 };
 use crate::algebra::{Expression, Measure, Node, Operator, Unit};
+
+pub use vectors::WrittenVector;
 
 /// A number in a dimension of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,24 +61,6 @@ impl Literal {
             }
             node => node.at(0..0),
         }
-    }
-}
-
-/// Three plain numbers of a point or a direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WrittenVector {
-    /// [`Measure::Length`] for a point, [`Measure::Number`] for a direction.
-    pub measure: Measure,
-    /// The places of its numbers in [`Description::literals`], each with its sign there.
-    pub literals: [(usize, f64); 3],
-}
-
-/// The sign before a number that stands alone.
-fn sign(expression: &Expression) -> Option<f64> {
-    match &expression.node {
-        Node::Number(_) | Node::Quantity(..) => Some(1.0),
-        Node::Negate(x) => sign(x).map(|sign| -sign),
-        _ => None,
     }
 }
 
@@ -299,29 +285,6 @@ impl Description {
             literal.measure = found.unwrap_or(Measure::Open);
         }
         literals
-    }
-
-    /// The vectors of joint coordinates, in the order of the file, with the joint of each; `None` for one that is not three
-    /// plain numbers.
-    pub fn written_vectors(&self) -> Vec<(String, Option<WrittenVector>)> {
-        let (mut vectors, mut number) = (Vec::new(), 0);
-        let mut entries: Vec<Option<(usize, f64)>> = Vec::new();
-        self.clone()
-            .dimensions(&mut |entry, measure, place, in_vector| {
-                let first = number;
-                of_sum(&mut entry.expression, &mut |_| number += 1);
-                if !in_vector {
-                    return;
-                }
-                entries.push(sign(&entry.expression).map(|sign| (first, sign)));
-                if entries.len() == 3 {
-                    let all: Option<Vec<(usize, f64)>> = entries.drain(..).collect();
-                    let vector = all.and_then(|all| all.try_into().ok());
-                    let vector = vector.map(|literals| WrittenVector { measure, literals });
-                    vectors.push((place.to_owned(), vector));
-                }
-            });
-        vectors
     }
 
     /// The file with other expressions in place of its literals.

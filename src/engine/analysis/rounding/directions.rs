@@ -75,20 +75,24 @@ impl Numbers<'_> {
             let sum = group.iter().map(|axis| along(axis).scaled(1.0 / axis.off));
             let mut mean = unit(sum.fold(Vector3::zero(), |sum, of| sum + of));
             let off = group.iter().map(|axis| axis.off).fold(off, f64::min);
+            let mut is_meant = group.len() > 1;
             for (other, its) in &known {
                 let (angle, near) = (mean.dot(other), off + its);
                 if angle.abs() <= near {
                     mean = unit(mean - other.scaled(angle));
+                    is_meant = true;
                 }
             }
             for (other, its) in &known {
                 let same = other.scaled(mean.dot(other).signum());
                 if (mean - same).norm() <= off + its {
                     mean = same;
+                    is_meant = true;
                 }
             }
             known.push((mean, off));
-            for axis in &group {
+            // an axis that is like no other keeps its numbers free
+            for axis in group.iter().filter(|_| is_meant) {
                 let along = mean.scaled(axis.direction.dot(&mean).signum());
                 meant.extend(self.turned(axis, along).unwrap_or_default());
             }
