@@ -5,6 +5,7 @@
 //! them takes both from the extent of the whole.
 
 mod answers;
+mod bearings;
 mod links;
 mod motion;
 
@@ -267,6 +268,7 @@ impl Scene {
             }
         }
         scene.blocks();
+        scene.bearings(mechanism, &pose, &number);
         scene.travels(mechanism, at, &pose);
         scene.gears(mechanism, &pose, &number);
         scene

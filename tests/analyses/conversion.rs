@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use linkwork::analysis::compare::{CompareSettings, compare};
 use linkwork::analysis::convert::{
     Conversion, ConversionNote, ConvertError, ConvertSettings, CutError, convert, possible_cuts,
+    to_axes,
 };
+use linkwork::ask;
 use linkwork::description::{Description, Displacement, Entry};
 use linkwork::geometry::{Axis, Pose};
 use linkwork::mechanism::{ClosureKind, Configuration, Convention, Frame, Mechanism};
@@ -414,4 +416,37 @@ fn limits_stay_with_a_joint_that_is_cut_and_other_cuts_are_named() {
     );
     let (description, mechanism) = shipped("delta");
     assert!(possible_cuts(&mechanism, &description).is_empty());
+}
+
+/// Two links under their weights and a load: the moment that the first joint bears, from the places of the centres of mass.
+#[test]
+fn masses_and_loads_stay_where_they_are() {
+    let text = r#"Mechanism(
+        version: 1, name: "arm", convention: Modified, tolerance: "0.1 mm",
+        joints: { "a": Actuated(home: "30 deg"), "b": Actuated(home: "40 deg") },
+        chains: { "arm": Chain(base: [Rx("90 deg")], rows: [(theta: "a", link: "upper"), (a: 0.4, theta: "b", link: "fore")],
+                               tip: [Tx(0.3)]) },
+        gravity: (0, 0, "-9.81 m/s^2"),
+        masses: { "upper": (mass: 2, centre: (0.2, 0, 0)), "fore+0.1,0,0": (mass: 1) },
+        loads: { "push": Force(at: "arm+-0.1,0,0", force: (0, 0, "-5 N")) },
+    )"#;
+    let moment = |description: &Description| {
+        let question = ask::Question::new(Mechanism::new(description).unwrap()).hold("a", 0.5);
+        let question = question.hold("b", 0.7);
+        let found = question.statics(&Watch::none()).unwrap().closed().unwrap();
+        found.actuators[0].force
+    };
+    let (upper, fore) = (0.5_f64.cos(), 1.2_f64.cos());
+    let weights = 9.81 * (2.0 * 0.2 * upper + 0.4 * upper + 0.1 * fore);
+    let expected = weights + 5.0 * (0.4 * upper + 0.2 * fore);
+    let description = Description::read(text).unwrap();
+    let mechanism = Mechanism::new(&description).unwrap();
+    let standard = in_convention(&mechanism, &description, Convention::Standard).description;
+    let in_standard = Mechanism::new(&standard).unwrap();
+    let back = in_convention(&in_standard, &standard, Convention::Modified).description;
+    let axes = to_axes(&mechanism, &description).unwrap().0;
+    assert_eq!(axes.tolerance, description.tolerance);
+    for of in [description, standard, back, axes.tables().unwrap()] {
+        assert!((moment(&of) - expected).abs() < 1e-12, "{}", moment(&of));
+    }
 }

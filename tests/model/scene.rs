@@ -178,3 +178,80 @@ fn pixels(svg: &str) -> Vec<(f64, f64)> {
         })
         .collect()
 }
+
+/// The arms of a double wishbone stand on two points each, as the file gives them.
+#[test]
+fn a_hinge_through_two_points_is_two_bearings() {
+    let scene = scene("axes/double_wishbone", &[]);
+    let arms = [
+        (
+            "upper",
+            [[-0.12, 0.28, 0.3], [0.18, 0.28, 0.29]],
+            [0.015, 0.57, 0.32],
+        ),
+        (
+            "lower",
+            [[-0.15, 0.25, 0.12], [0.2, 0.25, 0.13]],
+            [0.0, 0.6, 0.11],
+        ),
+    ];
+    for (hinge, points, ball) in arms {
+        let bearings = scene.joints.iter().filter(|joint| joint.names == [hinge]);
+        let bearings: Vec<_> = bearings.collect();
+        assert_eq!(bearings.len(), 2);
+        for (bearing, point) in bearings.iter().zip(points) {
+            assert!(distance(bearing.at, point) < 1e-12);
+            assert_eq!(bearing.kind, JointSymbol::Revolute);
+        }
+        let arm = scene
+            .bodies
+            .iter()
+            .find(|body| body.name == format!("{hinge} arm"));
+        let arm = arm.unwrap();
+        let is_corner = |point| arm.corners.iter().any(|at| distance(*at, point) < 1e-9);
+        assert!(points.into_iter().chain([ball]).all(is_corner));
+        // a link from each bearing to the ball
+        for point in points {
+            let leads = |line: &Vec<[f64; 3]>| {
+                let near = |to| line.iter().any(|at| distance(*at, to) < 1e-9);
+                near(point) && near(ball)
+            };
+            assert!(arm.lines.iter().any(leads), "{hinge}: {:?}", arm.lines);
+        }
+    }
+    let names = |view| {
+        let settings = DrawingSettings { labels: true, view };
+        let panel = Panel {
+            title: String::new(),
+            scene: scene.clone(),
+            ghosts: Vec::new(),
+        };
+        sheet(&[panel], &settings).svg().matches(">lower<").count()
+    };
+    assert_eq!(names(Viewpoint::Natural), 1);
+}
+
+/// In a plane of motion the second point only says where the axis leads.
+#[test]
+fn a_hinge_of_a_plane_is_one_pin() {
+    let text = r#"Axes(version: 1, name: "four-bar", joints: {
+        "A": Revolute(through: ((0, 0, 0), (0, 0, 1)), role: Actuated, between: ("ground", "crank")),
+        "B": Revolute(through: ((0, 1, 0), (0, 1, 1)), between: ("crank", "coupler")),
+        "C": Revolute(through: ((3, 2, 0), (3, 2, 1)), between: ("coupler", "rocker")),
+        "D": Revolute(through: ((3, 0, 0), (3, 0, 1)), between: ("rocker", "ground")),
+    })"#;
+    let count = |text: &str| {
+        let description = linkwork::description::Description::read(text).unwrap();
+        let mechanism = linkwork::mechanism::Mechanism::new(&description).unwrap();
+        Scene::of(&mechanism, &mechanism.home()).joints.len()
+    };
+    assert_eq!(count(text), 4);
+    // a spherical one has an outer bearing on each axis: all lead away from one point
+    let spherical = text
+        .replace("(0, 0, 1)", "(1, 1, -5)")
+        .replace("(0, 1, 1)", "(1, 1, -5)");
+    let spherical = spherical
+        .replace("(3, 2, 1)", "(1, 1, -5)")
+        .replace("(3, 0, 1)", "(1, 1, -5)");
+    assert_eq!(count(&spherical), 8);
+}

@@ -3,12 +3,15 @@ import { Vector3 } from "three";
 import { element, find } from "./elements";
 import type { Note } from "./arrows";
 import type { Stage } from "./stage";
-import type { Scene, Triple } from "./types";
+import type { JointShape, Scene, Triple } from "./types";
 
 const v = (t: Triple) => new Vector3(...t);
 
 function names(scene: Scene): Note[] {
-  const joints = scene.joints.filter((joint) => joint.kind !== "rigid").map((joint) => ({ words: joint.names.join(", "), at: v(joint.at) }));
+  // a hinge on two bearings has one label
+  const same = (a: JointShape, b: JointShape) => `${a.names}|${a.bodies}` === `${b.names}|${b.bodies}`;
+  const first = scene.joints.filter((joint, i) => !scene.joints.slice(0, i).some((of) => same(of, joint)));
+  const joints = first.filter((joint) => joint.kind !== "rigid").map((joint) => ({ words: joint.names.join(", "), at: v(joint.at) }));
   const rods = scene.rods.map((rod) => ({ words: rod.name, at: v(rod.ends[0]).lerp(v(rod.ends[1]), 0.5) }));
   const platforms = scene.bodies.filter((body) => body.platform && body.corners.length > 0).map((body) => {
     const middle = body.corners.reduce((sum, corner) => sum.add(v(corner)), new Vector3());

@@ -121,7 +121,7 @@ impl Scene {
         }
     }
 
-    fn line(&mut self, body: usize, [from, to]: [Vector3<f64>; 2]) {
+    pub(super) fn line(&mut self, body: usize, [from, to]: [Vector3<f64>; 2]) {
         if close(&from, &to) {
             return;
         }

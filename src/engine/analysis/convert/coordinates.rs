@@ -65,18 +65,21 @@ pub fn to_axes(
         return Err(ConvertError::NotAlone(joint));
     }
     let renamed = drawing.frames();
-    let (mut closed_forms, mut outputs) = (
+    let (mut closed_forms, mut outputs, mut loads) = (
         description.closed_forms.clone(),
         description.outputs.clone(),
+        description.loads.clone(),
     );
-    rename(&mut closed_forms, &mut outputs, &renamed);
+    rename(&mut closed_forms, &mut outputs, &mut loads, &renamed);
     let axes = AxesDescription {
         name: description.name.clone(),
         source: description.source.clone(),
         convention: description.convention.clone(),
         parameters: description.parameters.clone(),
+        tolerance: description.tolerance.clone(),
         closed_forms,
         outputs,
+        loads,
         ..drawing.axes
     };
     let tables = axes.tables().map_err(ConvertError::Wrong)?;

@@ -4,8 +4,8 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 use crate::description::{
-    ChainDescription, ClosedFormDescription, Description, Displacement, Entry, Named, Spanned,
-    first_free, place_of,
+    ChainDescription, ClosedFormDescription, Description, Displacement, Entry, LoadsDescription,
+    Named, Spanned, first_free, place_of,
 };
 use crate::mechanism::PoseCoordinate;
 
@@ -44,8 +44,12 @@ pub(super) fn exchange(
     let outputs = description.outputs.iter();
     let outputs = outputs.flat_map(|output| output.value.expression.names());
     let outputs = outputs.map(|(name, _)| &name[frame_in(name)]);
+    let mut loads = description.loads.clone();
+    let loads = loads
+        .points()
+        .map(|point| &point.value[..frame_of(&point.value)]);
     let frames = closures.chain(forms).map(|frame| frame.value.as_str());
-    for frame in frames.chain(outputs) {
+    for frame in frames.chain(outputs).chain(loads) {
         if !wanted.iter().any(|known| known == frame) {
             wanted.push(frame.to_owned());
         }
@@ -83,6 +87,7 @@ pub(super) fn exchange(
     rename(
         &mut description.closed_forms,
         &mut description.outputs,
+        &mut description.loads,
         &renamed,
     );
     renamed
@@ -106,10 +111,11 @@ pub(super) fn number_links(description: &mut Description) {
     });
 }
 
-/// Exchanges the names of frames in closed forms and quantities.
+/// Exchanges the names of frames in closed forms, quantities and loads.
 pub(super) fn rename(
     closed_forms: &mut [Named<ClosedFormDescription>],
     outputs: &mut [Named<Entry>],
+    loads: &mut LoadsDescription,
     renamed: &[(String, String)],
 ) {
     let new_name = |name: &str| {
@@ -133,6 +139,17 @@ pub(super) fn rename(
         });
         output.value.expression = exchanged.expect("every name is kept or exchanged");
     }
+    for point in loads.points() {
+        let end = frame_of(&point.value);
+        if let Some(new) = new_name(&point.value[..end]) {
+            point.value.replace_range(..end, new);
+        }
+    }
+}
+
+/// The end of the name of the frame in that of a point, such as `top+0.15,0.05`.
+pub(super) fn frame_of(point: &str) -> usize {
+    point.find('+').unwrap_or(point.len())
 }
 
 /// Place of the name of a frame in that of a quantity, such as `velocity:[left+1].x`; of others, of what follows the

@@ -98,6 +98,17 @@ impl LoadDescription {
 }
 
 impl LoadsDescription {
+    /// The frames and points at which it acts, each with offsets if it has any.
+    pub fn points(&mut self) -> impl Iterator<Item = &mut Spanned<String>> {
+        let masses = self.masses.iter_mut().map(|mass| &mut mass.name);
+        let fields = self.loads.iter_mut().flat_map(|of| &mut of.value.fields);
+        masses.chain(fields.flat_map(|(field, value)| match value {
+            LoadField::Name(name) if *field != "joint" => std::slice::from_mut(name),
+            LoadField::Points(points) => points,
+            _ => &mut [],
+        }))
+    }
+
     /// Every name in its expressions and in the offsets of its points.
     pub fn names(&self) -> HashSet<String> {
         let mut entries: Vec<&Entry> = self.gravity.iter().flatten().collect();

@@ -3,6 +3,7 @@
 use super::{HEIGHT, Pixel, StagedScene, WIDTH};
 use crate::geometry::Vector3;
 use crate::number::real;
+use crate::scene::JointShape;
 
 /// Height of the letters in pixels.
 pub(super) const LETTERS: f64 = 12.0;
@@ -27,8 +28,14 @@ impl Labels {
         beside: Vec<(String, Vector3<f64>)>,
     ) -> Vec<(String, Pixel)> {
         let scene = stage.scene;
-        let joints = scene.joints.iter();
-        let joints = joints.map(|joint| (joint.names.join(", "), Vector3(joint.at)));
+        // a hinge on two bearings has one label
+        let is_same = |of: &JointShape, joint: &JointShape| {
+            of.names == joint.names && of.bodies == joint.bodies
+        };
+        let joints = scene.joints.iter().enumerate();
+        let joints = joints
+            .filter(|(i, joint)| !scene.joints[..*i].iter().any(|of| is_same(of, joint)))
+            .map(|(_, joint)| (joint.names.join(", "), Vector3(joint.at)));
         let rods = scene.rods.iter().map(|rod| {
             let [a, b] = rod.ends.map(Vector3);
             (rod.name.clone(), (a + b).times(0.5))

@@ -1,20 +1,23 @@
 //! Frames of bodies, and the points that remain of other frames.
 
 use super::{Drawing, place_at, rotations};
-use crate::analysis::convert::references::frame_in;
+use crate::analysis::convert::references::{frame_in, frame_of};
 use crate::description::{
     AxisDescription, AxisPlace, GROUND, Named, PointDescription, Spanned, first_free, place_of,
 };
 use crate::mechanism::Frame;
 
 impl Drawing<'_> {
-    /// True if a closed form or a quantity names a frame.
+    /// True if a closed form, a quantity or a load names a frame.
     fn is_asked(&self, frame: &str) -> bool {
+        let mut loads = self.description.loads.clone();
+        let mut loads = loads.points();
         let forms = self.description.closed_forms.iter();
         let mut frames = forms.flat_map(|form| form.value.of.iter().chain(&form.value.relative_to));
         let outputs = self.description.outputs.iter();
         let mut names = outputs.flat_map(|output| output.value.expression.names());
         frames.any(|name| name.value == frame)
+            || loads.any(|point| point.value[..frame_of(&point.value)] == *frame)
             || names.any(|(name, _)| name[frame_in(name)] == *frame)
     }
 
