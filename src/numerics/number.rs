@@ -11,6 +11,7 @@ mod gradient;
 mod interval;
 mod mark;
 pub mod real;
+pub mod residue;
 pub mod sorting;
 mod taylor;
 pub mod tolerance;

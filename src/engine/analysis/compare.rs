@@ -2,6 +2,7 @@
 
 mod conditions;
 mod consequence;
+mod echelon;
 mod elimination;
 mod formula;
 mod identity;

@@ -6,8 +6,10 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use rustc_hash::FxHashMap;
 
+use super::echelon::{Combination, Echelon};
 use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
 use crate::mechanism::Letters;
+use crate::number::residue::Residue;
 use crate::number::sorting::sort_by_key;
 
 /// Rows of the elimination at most.
@@ -17,11 +19,12 @@ const MOST_TERMS: usize = 120;
 /// Common factors of a formula that are tried.
 const MOST_FACTORS: usize = 48;
 
-/// Linear combinations of formulas, brought to echelon form term by term.
+/// Linear combinations of formulas over the rationals. What is none modulo a prime is taken for none, and what is one there
+/// is tried with those formulas alone that it combines.
 pub(super) struct Span {
     columns: FxHashMap<Key, usize>,
-    /// Rows by the column of the first entry, which is 1.
-    rows: BTreeMap<usize, BTreeMap<usize, BigRational>>,
+    rows: Vec<Vec<(usize, BigRational)>>,
+    residues: Echelon<Residue>,
 }
 
 impl Span {
@@ -34,70 +37,67 @@ impl Span {
     pub fn over(formulas: &[Trigonometric], roots: &[u64]) -> Self {
         let mut span = Span {
             columns: FxHashMap::default(),
-            rows: BTreeMap::new(),
+            rows: Vec::new(),
+            residues: Echelon::new(std::iter::empty()),
         };
-        formulas.iter().for_each(|formula| span.add(formula, roots));
-        span
-    }
-
-    fn add(&mut self, formula: &Trigonometric, roots: &[u64]) {
         let mut budget = Budget { products: 100_000 };
-        for &root in roots {
-            let root = Trigonometric::one_of(Key::root(root));
-            let Some(turned) = formula.times(&root, &mut budget) else {
-                continue;
-            };
-            let row = self.row(&turned);
-            let row = self.reduced(row);
-            if self.rows.len() < MOST_ROWS
-                && let Some((&first, lead)) = row.iter().next()
-            {
-                let inverse = lead.recip();
-                let row = row.into_iter().map(|(column, x)| (column, x * &inverse));
-                self.rows.insert(first, row.collect());
-            }
-        }
-    }
-
-    fn row(&mut self, formula: &Trigonometric) -> BTreeMap<usize, BigRational> {
-        let mut row = BTreeMap::new();
-        for (key, coefficient) in formula.terms() {
-            let next = self.columns.len();
-            let column = *self.columns.entry(key.clone()).or_insert(next);
-            row.insert(column, coefficient.clone());
-        }
-        row
-    }
-
-    fn reduced(&self, mut row: BTreeMap<usize, BigRational>) -> BTreeMap<usize, BigRational> {
-        let mut from = 0;
-        while let Some((&column, factor)) = row.range(from..).next() {
-            from = column + 1;
-            let Some(pivot) = self.rows.get(&column) else {
-                continue;
-            };
-            let factor = factor.clone();
-            for (column, x) in pivot {
-                let entry = row.entry(*column).or_insert_with(BigRational::zero);
-                *entry -= x * &factor;
-                if entry.is_zero() {
-                    row.remove(column);
+        for formula in formulas {
+            for &root in roots {
+                let root = Trigonometric::one_of(Key::root(root));
+                if let Some(turned) = formula.times(&root, &mut budget) {
+                    let row = span.row(&turned);
+                    span.rows.push(row);
                 }
             }
         }
+        let rows = span.rows.iter().enumerate();
+        span.residues = Echelon::new(rows.filter_map(|(i, row)| residues(row, Some(i))));
+        span
+    }
+
+    fn row(&mut self, formula: &Trigonometric) -> Vec<(usize, BigRational)> {
+        let mut row = Vec::new();
+        for (key, coefficient) in formula.terms() {
+            let next = self.columns.len();
+            let column = *self.columns.entry(key.clone()).or_insert(next);
+            row.push((column, coefficient.clone()));
+        }
+        sort_by_key(&mut row, |entry| entry.0);
         row
     }
 
-    /// Remainder of a formula after combinations are subtracted.
-    fn rest(&mut self, formula: &Trigonometric) -> BTreeMap<usize, BigRational> {
-        let row = self.row(formula);
-        self.reduced(row)
+    /// Remainder of a formula modulo the prime.
+    fn rest(&mut self, formula: &Trigonometric) -> Option<Combination<Residue>> {
+        let row = residues(&self.row(formula), None)?;
+        Some(self.residues.reduced(row))
+    }
+
+    /// The combinations of some of the formulas, without remainders.
+    fn exactly(&self, of: &BTreeSet<usize>) -> Echelon<BigRational> {
+        let rows = of.iter().map(|&i| self.rows[i].clone());
+        Echelon::new(rows.map(Combination::alone))
     }
 
     /// True if the formula is such a combination.
     pub fn contains(&mut self, formula: &Trigonometric) -> bool {
-        self.rest(formula).is_empty()
+        let Some(rest) = self.rest(formula).filter(|rest| rest.entries.is_empty()) else {
+            return false;
+        };
+        let row = Combination::alone(self.row(formula));
+        self.exactly(&rest.of).reduced(row).entries.is_empty()
     }
+}
+
+/// A row modulo the prime; `of` is its number, if it is one of the span.
+fn residues(row: &[(usize, BigRational)], of: Option<usize>) -> Option<Combination<Residue>> {
+    let entries = row
+        .iter()
+        .map(|(column, x)| Some((*column, Residue::of(x)?)));
+    let entries = entries.filter(|entry| entry.is_none_or(|(_, x)| !x.is_zero()));
+    Some(Combination {
+        entries: entries.collect::<Option<_>>()?,
+        of: of.into_iter().collect(),
+    })
 }
 
 /// The terms of the equations as factors: products of letters times a sine or cosine.
@@ -231,19 +231,19 @@ pub(super) fn slip(
     let generators = generators.unwrap_or_else(|| equations.to_vec());
     let mut span = Span::new(&generators);
     for factor in candidates(formula, &generators, letters) {
-        let left = span.rest(&formula.times(&factor, budget)?);
+        let whole = formula.times(&factor, budget)?;
+        let left = span.rest(&whole)?;
         for term in factors(std::slice::from_ref(formula)) {
-            let part = span.rest(&term.times(&factor, budget)?);
-            let Some((column, x)) = part.iter().next() else {
+            let multiple = term.times(&factor, budget)?;
+            let Some(part) = span
+                .rest(&multiple)
+                .filter(|part| part.ratio(&left).is_some())
+            else {
                 continue;
             };
-            let Some(ratio) = left.get(column).map(|y| y / x) else {
-                continue;
-            };
-            let same = left.len() == part.len()
-                && (left.iter())
-                    .all(|(column, y)| part.get(column).is_some_and(|x| x * &ratio == *y));
-            if same {
+            let echelon = span.exactly(&left.of.union(&part.of).copied().collect());
+            let mut rest = |of: &Trigonometric| echelon.reduced(Combination::alone(span.row(of)));
+            if let Some(ratio) = rest(&multiple).ratio(&rest(&whole)) {
                 return Some(term.scaled(&ratio));
             }
         }
