@@ -56,6 +56,7 @@ fn three_rps() -> Dimensions<f64> {
     Dimensions {
         characteristic_length: 1.0,
         centre: [0.0; 3],
+        axes: None,
         joint_scales: vec![1.0; 6],
         chains: (places.clone().enumerate())
             .map(|(i, place)| ChainDimensions {

@@ -16,11 +16,17 @@ use crate::scales::{files, read};
 
 /// Everything on ground displaced and turned, as by a first step of every base.
 fn moved(description: &Description, by: [f64; 3]) -> Description {
+    placed(description, by, [0.0, 0.7, -0.4])
+}
+
+/// As [`moved`], turned by these angles about y, z and x.
+fn placed(description: &Description, by: [f64; 3], [y, z, x]: [f64; 3]) -> Description {
     let steps = || {
         [
             Displacement::TranslateBy(by.map(Entry::length)),
-            Displacement::Rotate(Axis::Z, Entry::angle(0.7)),
-            Displacement::Rotate(Axis::X, Entry::angle(-0.4)),
+            Displacement::Rotate(Axis::Y, Entry::angle(y)),
+            Displacement::Rotate(Axis::Z, Entry::angle(z)),
+            Displacement::Rotate(Axis::X, Entry::angle(x)),
         ]
     };
     let mut made = description.clone();
@@ -178,6 +184,45 @@ fn shipped_files_have_the_same_answers_far_away() {
     ] {
         assert_eq!(differences(name, &[1e3, 1e6]), Vec::<String>::new());
     }
+}
+
+/// How a loop lies in ground does not matter: bodies that stay in a plane do so in a tilted one.
+#[test]
+fn tilted_loops_have_the_assemblies_and_multiplicities_of_level_ones() {
+    let listed = |description: &Description| {
+        let question = Question::new(Mechanism::new(description).unwrap());
+        let report = question
+            .assemblies(Wanted::default(), &Watch::none())
+            .unwrap();
+        let all = report.assemblies.iter();
+        let multiplicities: Vec<usize> = all.map(|of| of.multiplicity).collect();
+        let how = (report.fit, report.bound, report.general);
+        (report.real, report.complex, multiplicities, how)
+    };
+    let poses = [
+        ([3.1, -2.2, 1.7], [-0.4, 1.9, 0.7]),
+        ([-0.3, 12.0, 0.1], [2.9, -1.3, 0.2]),
+        ([0.0; 3], [0.5, 0.0, -2.2]),
+    ];
+    for name in [
+        "flat_triangle",
+        "triangle",
+        "parallelogram",
+        "slider_crank",
+        "spherical_four_bar",
+        "stephenson_six_bar",
+        "planar_3rpr",
+    ] {
+        let level = read(name);
+        let own = listed(&level);
+        for (by, turned) in poses {
+            let found = listed(&placed(&level, by, turned));
+            assert_eq!(found, own, "{name} at {by:?} turned by {turned:?}");
+        }
+    }
+    // two circles that touch meet in one point, which counts twice
+    let (real, complex, multiplicities, _) = listed(&read("flat_triangle"));
+    assert_eq!((real, complex, multiplicities), (1, 2, vec![2]));
 }
 
 #[test]

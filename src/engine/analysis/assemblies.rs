@@ -142,6 +142,7 @@ impl AssemblySolver {
         settings: &AssembliesSettings,
         watch: &Watch,
     ) -> Result<Self, AssembliesError> {
+        let mechanism = &mechanism.level();
         let searched = |family: Family| {
             let bound = family::known_bound(mechanism, &family);
             let count = bound.as_ref().map(|bound| bound.count);
@@ -184,6 +185,7 @@ impl AssemblySolver {
         held: &Held<f64>,
         stored: GenericSolutions,
     ) -> Result<Self, AssembliesError> {
+        let mechanism = &mechanism.level();
         let mut family = Family::new(mechanism, held);
         if stored.parameters.len() != family.parameters.len()
             && let Some(wider) = Family::wider(mechanism, held)

@@ -1,7 +1,7 @@
 //! The place from which positions are measured: amid the bases of a mechanism that is far from the origin of ground.
 
 use super::lift::{nearest, places_on_ground};
-use super::{Dimensions, Mechanism, PlatformPose};
+use super::{Dimensions, Frame, Mechanism, PlatformPose};
 use crate::algebra::EvaluationError;
 use crate::description::ProblemKind;
 use crate::geometry::{Pose, Vector3};
@@ -33,7 +33,35 @@ impl Mechanism {
             true => [0.0; 3],
             false => centre.0,
         };
-        self.dimensions_about(centre, parameters)
+        self.dimensions_about((centre, None), parameters)
+    }
+
+    /// The mechanism with positions measured along the axes of a chain's base on ground, from there, if more closure equations
+    /// vanish everywhere so, as those across the plane of a loop that is tilted in ground; otherwise a copy.
+    ///
+    /// Only joints of its configurations mean the same as before: one with platforms stays as it is.
+    pub fn level(&self) -> Mechanism {
+        let mut level = self.clone();
+        if !self.platforms.is_empty() {
+            return level;
+        }
+        let own = self.dimensions();
+        let parameters: Vec<f64> = self.parameters.iter().map(|of| of.value).collect();
+        let ground = own.ground().inverse();
+        for chain in own.chains.iter().filter(|chain| chain.on == Frame::Ground) {
+            let base = ground * chain.base;
+            let about = (base.position.0, Some(base.rotation));
+            if let Ok(mut dimensions) = self.dimensions_about(about, &parameters) {
+                (dimensions.characteristic_length, dimensions.joint_scales) =
+                    (own.characteristic_length, own.joint_scales.clone());
+                let mut turned = self.clone();
+                turned.set_dimensions(dimensions);
+                if turned.equations_that_vary() < level.equations_that_vary() {
+                    level = turned;
+                }
+            }
+        }
+        level
     }
 
     /// That it is so far from the origin of ground that positions there keep fewer digits of its size than equations are

@@ -2,7 +2,7 @@
 //! lifted to complex, dual and other number types.
 
 use super::{ClosureKind, Frame, JointRelation};
-use crate::geometry::{Pose, Vector3};
+use crate::geometry::{Pose, Rotation, Vector3};
 use crate::number::Number;
 
 /// A linear form Σ cⱼ qⱼ in the joint variables, as (joint, coefficient) pairs.
@@ -89,6 +89,9 @@ pub struct Dimensions<T> {
     /// The place in ground, in m, from which positions are measured, along ground's axes: the origin, or for a mechanism
     /// far from it a place amid its bases. What is a metre long keeps all its digits there.
     pub centre: [f64; 3],
+    /// Axes in ground along which positions are measured instead of ground's, as [`Mechanism::level`](super::Mechanism::level)
+    /// chooses them.
+    pub axes: Option<Rotation<f64>>,
     /// For each joint the natural size of its variable: 1 rad, or the characteristic length.
     pub joint_scales: Vec<f64>,
     /// The chains.
@@ -100,12 +103,22 @@ pub struct Dimensions<T> {
 }
 
 impl<T> Dimensions<T> {
-    /// The centre from ground.
+    /// Ground seen from the centre, along the axes of positions.
     pub fn ground(&self) -> Pose<T>
     where
         T: Number,
     {
-        Pose::translation(Vector3(self.centre.map(|x| T::zero() - T::from_f64(x))))
+        let from_centre = Vector3(self.centre.map(|x| T::zero() - T::from_f64(x)));
+        match self.axes {
+            None => Pose::translation(from_centre),
+            Some(axes) => {
+                let rotation = Rotation(axes.0.map(|axis| axis.map(T::from_f64)));
+                Pose {
+                    rotation: rotation.transpose(),
+                    position: rotation.inverse_rotate(&from_centre),
+                }
+            }
+        }
     }
 
     /// The dimensions over another number, as constants.
@@ -121,6 +134,7 @@ impl<T> Dimensions<T> {
         Dimensions {
             characteristic_length: self.characteristic_length,
             centre: self.centre,
+            axes: self.axes,
             joint_scales: self.joint_scales.clone(),
             chains: (self.chains.iter())
                 .map(|chain| ChainDimensions {
@@ -192,6 +206,7 @@ impl<T> Dimensions<T> {
         Dimensions {
             characteristic_length: 1.0,
             centre: [0.0; 3],
+            axes: None,
             joint_scales: vec![],
             chains: vec![],
             platforms: vec![],

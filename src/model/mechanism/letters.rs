@@ -129,7 +129,7 @@ impl<'a> Formal<'a> {
         parameters: &[Symbolic],
         joints: Vec<Symbolic>,
     ) -> Result<Self, EvaluationError> {
-        let mut dimensions = mechanism.dimensions_about([0.0; 3], parameters)?;
+        let mut dimensions = mechanism.dimensions_about(([0.0; 3], None), parameters)?;
         // formulas are in m and rad, in ground: nothing is made dimensionless
         dimensions.characteristic_length = 1.0;
         dimensions.joint_scales.fill(1.0);

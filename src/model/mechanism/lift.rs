@@ -10,7 +10,7 @@ use super::model::{ChainRow, FixedStep, Formula, Joint, JointKind, Symbol};
 use super::{Frame, JointRelation, Mechanism};
 use crate::algebra::{Affine, EvaluationError};
 use crate::description::{Convention, Role};
-use crate::geometry::{Axis, Pose, Vector3};
+use crate::geometry::{Axis, Pose, Rotation, Vector3};
 use crate::linear::{join, root};
 use crate::number::Number;
 
@@ -111,17 +111,18 @@ impl Mechanism {
         &self,
         parameters: &[T],
     ) -> Result<Dimensions<T>, EvaluationError> {
-        self.dimensions_about(self.dimensions.centre, parameters)
+        let known = &self.dimensions;
+        self.dimensions_about((known.centre, known.axes), parameters)
     }
 
-    /// As [`Mechanism::dimensions_over`], with positions from another centre, in m.
+    /// As [`Mechanism::dimensions_over`], with positions from another centre, in m, along other axes.
     pub(super) fn dimensions_about<T: Number>(
         &self,
-        centre: [f64; 3],
+        (centre, axes): ([f64; 3], Option<Rotation<f64>>),
         parameters: &[T],
     ) -> Result<Dimensions<T>, EvaluationError> {
         let mut dimensions = Dimensions::empty();
-        dimensions.centre = centre;
+        (dimensions.centre, dimensions.axes) = (centre, axes);
         dimensions.joint_scales = vec![1.0; self.joints.len()];
         let ground: Pose<T> = dimensions.ground();
         dimensions.chains = each(&self.chains, |chain| {
@@ -297,7 +298,7 @@ pub(super) fn places_on_ground<T: Number>(dimensions: &Dimensions<T>) -> Vec<(us
             .then_some(closure.frames)?;
         frames.into_iter().find_map(body)
     });
-    let ground = dimensions.centre.map(|x| 0.0 - x);
+    let ground = dimensions.ground().position.0.map(|x| x.real());
     let places = bases.chain(to_ground.map(|i| (i, ground)));
     let places = places.map(|(i, place)| (root(&mut roots, i), place));
     places.collect()

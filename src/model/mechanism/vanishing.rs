@@ -7,15 +7,16 @@ use super::closure::{ClosureEquations, EVERY_ROW, Kept, needs};
 use super::configuration::{Configuration, PlatformPose};
 use super::dimensions::Dimensions;
 use super::kinematics::Kinematics;
-use crate::geometry::{Quaternion, Vector3};
-use crate::number::{Folded, Number};
+use crate::geometry::{Pose, Quaternion, Vector3};
+use crate::number::{Folded, tolerance::CANCELLED};
 
 /// For each closure the rows that do not vanish whatever joints and platforms do.
 ///
 /// The kinematics is multiplied out over constants and unknowns; right angles have exact sines, so that the equations
 /// across the plane of a planar loop, those of the centre of a spherical one and the angles between bodies that are only
-/// shifted come out as zero. No rank is computed: a row that vanishes for another reason is kept.
+/// shifted come out as zero, but for rounding. No rank is computed: a row that vanishes for another reason is kept.
 fn rows_that_vary(dimensions: &Dimensions<f64>) -> Vec<Kept> {
+    let dimensions = &without_rounding(dimensions);
     let constant = |x| Folded(Some(x));
     let frames = dimensions.closures.iter();
     let frames = frames.flat_map(|closure| {
@@ -44,9 +45,26 @@ fn rows_that_vary(dimensions: &Dimensions<f64>) -> Vec<Kept> {
     let rows = closures.map(|closure| {
         let closure = ClosureEquations::new(&folded, closure, &kinematics, EVERY_ROW);
         let rows = closure.rows(&placement, &at);
-        rows.residual.map(|row| row != Folded::zero())
+        rows.residual
+            .map(|row| !row.0.is_some_and(|constant| constant.abs() <= CANCELLED))
     });
     rows.collect()
+}
+
+/// The dimensions with zero where the angles and lengths of a base on ground cancel but for rounding.
+fn without_rounding(dimensions: &Dimensions<f64>) -> Dimensions<f64> {
+    let mut rounded = dimensions.clone();
+    for Pose { rotation, position } in rounded.chains.iter_mut().map(|chain| &mut chain.base) {
+        let lengths = position
+            .0
+            .iter_mut()
+            .map(|x| (x, dimensions.characteristic_length));
+        let entries = rotation.0.iter_mut().flat_map(|axis| &mut axis.0);
+        let small = |(x, size): &(&mut f64, f64)| x.abs() <= CANCELLED * size;
+        let all = entries.map(|x| (x, 1.0)).chain(lengths);
+        all.filter(small).for_each(|(x, _)| *x = 0.0);
+    }
+    rounded
 }
 
 impl Mechanism {
@@ -72,7 +90,7 @@ impl Mechanism {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Axis, Pose};
+    use crate::geometry::Axis;
     use crate::mechanism::{
         ChainDimensions, ClosureDimensions, ClosureKind, Frame, LinearForm, RowDimensions,
     };
@@ -95,6 +113,7 @@ mod tests {
         Dimensions {
             characteristic_length: 1.0,
             centre: [0.0; 3],
+            axes: None,
             joint_scales: vec![1.0; 3],
             chains: vec![
                 chain(Pose::identity(), first, tip),

@@ -117,6 +117,7 @@ fn platform(family: &Family, rods: &[[C; 7]]) -> System<C> {
     let dimensions = Dimensions {
         characteristic_length: family.coordinates.length,
         centre: [0.0; 3],
+        axes: None,
         joint_scales: family.coordinates.joint_scales.clone(),
         chains: chains.collect(),
         platforms: frames,

@@ -17,8 +17,8 @@ pub(super) enum PairEnd {
     Pole(f64),
     /// At a crossing of paths, with the places from which all others go on.
     Crossing(Vec<Place<Configuration<C>>>),
-    /// Where no step leads on and the joint has this value.
-    Lost(f64),
+    /// Where no step leads on.
+    Lost(Configuration<C>),
     /// After so many steps that it was not followed further.
     GivenUp,
 }
@@ -42,6 +42,12 @@ impl PairPaths<'_> {
     const STEPS: usize = 10_000;
     const ALL_STEPS: usize = 40_000;
 
+    /// True if cosines are so large that rounding may keep paths from being followed.
+    pub fn is_far(&self, at: &Configuration<C>) -> bool {
+        const FAR: f64 = 5.0;
+        self.complex.split(at).0 > FAR
+    }
+
     /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
     pub fn leaving(
         &mut self,
@@ -64,7 +70,6 @@ impl PairPaths<'_> {
     ) -> PairEnd {
         /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
         const INFINITE: f64 = 9.0;
-        const FAR: f64 = 5.0;
         let mut length = 0.1 * self.method.longest;
         let mut before = 0.0;
         let mut none_ahead = false;
@@ -93,11 +98,9 @@ impl PairPaths<'_> {
                 Err(_) => {
                     length *= 0.5;
                     if length < self.method.shortest {
-                        let far = self.complex.split(&place.at).0 > FAR;
-                        let value = self.complex.value(&place.at);
-                        return match far {
-                            true => PairEnd::Pole(value),
-                            false => PairEnd::Lost(value),
+                        return match self.is_far(&place.at) {
+                            true => PairEnd::Pole(self.complex.value(&place.at)),
+                            false => PairEnd::Lost(place.at),
                         };
                     }
                     continue;

@@ -160,7 +160,7 @@ fn paths_reach(slice: &Slice, cycle: Option<f64>) -> f64 {
     cycle.map_or(slice.reach, |turns| turns * PI)
 }
 
-/// Next to a pole what goes to infinity is complex.
+/// Next to a pole, on either side, what goes to infinity is complex.
 const BESIDE_A_POLE: f64 = 0.02;
 
 /// The parts that intervals leave uncovered between −reach and reach, which are the same place if that is a whole cycle.
@@ -175,7 +175,7 @@ fn gaps(covered: &[[f64; 2]], reach: f64, cycle: bool) -> impl Iterator<Item = [
     let mut gaps = Vec::new();
     let mut end = -reach;
     for [low, high] in all.into_iter().chain([[reach, reach]]) {
-        if low.min(reach) > end + BESIDE_A_POLE {
+        if low.min(reach) > end + 2.0 * BESIDE_A_POLE {
             gaps.push([end, low.min(reach)]);
         }
         end = end.max(high);
@@ -214,6 +214,7 @@ fn from_one(
         steps: 0,
         watch,
     };
+    let mut went = [-paths.reach, paths.reach];
     let mut waiting = Vec::new();
     let mut pairs: Vec<&Configuration<C>> = Vec::new();
     for at in &slice.complex {
@@ -228,12 +229,14 @@ fn from_one(
                     waiting.push((paths.complex.going(place.clone(), up), up));
                 }
             }
+            // the value is beside a pole itself
+            Err(_) if paths.is_far(at) => went = [0.0; 2],
             Err(_) => swept.lose(slice.value),
         }
     }
-    let mut went = [-paths.reach, paths.reach];
     // dead points that a path is to end at, and those that one did
     let (mut wanted, mut reached) = (Vec::new(), Vec::new());
+    let mut lost = Vec::new();
     let mut seen = 0;
     loop {
         for found in &tracing.traced[seen..] {
@@ -276,7 +279,7 @@ fn from_one(
             PairEnd::Crossing(places) => {
                 waiting.extend(places.into_iter().map(|place| (place, up)))
             }
-            PairEnd::Lost(value) => swept.lose(value),
+            PairEnd::Lost(at) => lost.push(at),
             PairEnd::GivenUp => swept.given_up += 1,
         }
     }
@@ -287,8 +290,19 @@ fn from_one(
     };
     let within = |from: f64| from > went[0] && from < went[1];
     let missed = (wanted.iter()).filter(|(from, fold)| within(*from) && one_set(fold));
-    missed
-        .filter(|(_, fold)| !reached.iter().any(|at| near(fold, at)))
-        .for_each(|(from, _)| swept.lose(slice.value + from));
+    for (from, fold) in missed.filter(|(_, fold)| !reached.iter().any(|at| near(fold, at))) {
+        // a path that was lost just before the dead point is the one that ends there, as where freer configurations meet it
+        let ends = |at: &Configuration<C>| {
+            let (imaginary, beside) = paths.complex.split(at);
+            imaginary < ARRIVED && near(fold, &beside)
+        };
+        match lost.iter().position(ends) {
+            Some(path) => drop(lost.swap_remove(path)),
+            None => swept.lose(slice.value + from),
+        }
+    }
+    for at in lost {
+        swept.lose(at.joints[slice.joint].re);
+    }
     Some(went)
 }
