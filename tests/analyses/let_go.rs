@@ -398,6 +398,83 @@ fn a_driven_joint_goes_at_its_speed_and_tells_its_force() {
     assert!(wrong.simulation(&settings, &Watch::none()).is_err());
 }
 
+const BODY_ON_A_BALL: &str = r#"Mechanism(version: 1, name: "body on a ball", convention: Modified, joints: {},
+    chains: { "A": Chain() }, platforms: { "top": Platform() }, closures: { "ball": Spherical("A", "top") },
+    gravity: (0, 0, "-9.81 m/s^2"),
+    masses: { "top+0.1,0.05,0.2": (mass: 2, inertia: (0.03, 0.02, 0.025, 0.001, 0.002, -0.003)) },
+)"#;
+
+fn turned_body() -> Question {
+    question(BODY_ON_A_BALL)
+        .hold("top.roll", 0.1)
+        .hold("top.pitch", 0.2)
+        .hold("top.yaw", 0.3)
+}
+
+const ANGLES: [&str; 3] = ["top.roll", "top.pitch", "top.yaw"];
+
+/// Lagrange's equations in roll, pitch and yaw, written down by sympy and integrated by scipy (DOP853 to 1e-12): the body
+/// turns about several times, and is pitched by more than 70°.
+#[test]
+fn a_body_turns_through_every_orientation() {
+    let found = let_go(&turned_body(), 3.0, 6);
+    for (time, expected) in [
+        (0.5, [-2.60074605, -0.29052054, -3.08411473]),
+        (
+            1.5,
+            [7.01061752 - std::f64::consts::TAU, 0.44353117, 0.34095161],
+        ),
+        (
+            2.5,
+            [5.09977529 - std::f64::consts::TAU, -1.26450004, 0.61454554],
+        ),
+        (3.0, [1.54364967, -0.89019365, 0.38811473]),
+    ] {
+        near(&at(&found, time, &ANGLES), &expected, 2e-8);
+    }
+    assert!(found.energy.error < 1e-9 && found.end == SimulationEnd::Over);
+}
+
+/// By the same equations, with a roll or yaw that is driven ever faster over several turns while the other angles stay, and
+/// with one angle driven and the others free; the moment of the drive too.
+#[test]
+fn angles_of_a_platform_are_driven_over_whole_turns() {
+    let driven = |name: &str, locked: &[&str], duration: f64| {
+        let mut asked = turned_body().rate(name, "5 rad/s^2*time");
+        for name in locked {
+            asked = asked.lock(*name);
+        }
+        let settings = SimulationSettings {
+            duration,
+            rows: 1,
+            ..SimulationSettings::default()
+        };
+        simulated(&asked, &settings)
+    };
+    let force = |name: &str| format!("force:{name}");
+    for (name, moment) in [("top.yaw", 0.31960235), ("top.roll", 1.98582212)] {
+        let found = driven(name, &ANGLES, 3.0);
+        near(&at(&found, 3.0, &[&force(name)]), &[moment], 1e-7);
+    }
+    for (name, angles, moment) in [
+        ("top.yaw", [0.22613606, 1.38890764, 0.525], -0.175367355),
+        ("top.roll", [0.325, 1.37389642, 0.58133299], -0.200661017),
+        ("top.pitch", [-0.49596467, 0.425, -0.11368488], -0.148681653),
+    ] {
+        let found = driven(name, &[name], 0.3);
+        near(&at(&found, 0.3, &ANGLES), &angles, 2e-8);
+        near(&at(&found, 0.3, &[&force(name)]), &[moment], 1e-8);
+        // a little later it is pitched by 90°, where roll and yaw have no value
+        if name != "top.pitch" {
+            assert_eq!(
+                driven(name, &[name], 1.0).end,
+                SimulationEnd::Singular,
+                "{name}"
+            );
+        }
+    }
+}
+
 #[test]
 fn equations_are_linearised_as_textbooks_do() {
     // an inverted pendulum of 0.2 kg at 0.5 m on a cart of 0.8 kg: ẍ = (u + m·g·θ)/M, θ̈ = (u + (M + m)·g·θ)/(M·l)

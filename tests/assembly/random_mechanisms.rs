@@ -367,6 +367,7 @@ fn rows_of_held_coordinates_are_differentiated_rightly() {
             let held = Held {
                 joints: vec![],
                 platforms: vec![HeldPlatform::Partly(HeldParts {
+                    reference: None,
                     coordinates: coordinates.clone(),
                     orientation: Some(wanted),
                     spins: vec![],
@@ -400,6 +401,7 @@ fn rows_of_held_coordinates_are_differentiated_rightly() {
             let held = Held {
                 joints: vec![],
                 platforms: vec![HeldPlatform::Partly(HeldParts {
+                    reference: None,
                     coordinates: (coordinates.into_iter())
                         .map(|(c, value)| (c, Dual::constant(value)))
                         .collect(),

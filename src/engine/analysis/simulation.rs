@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, add, dot};
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::mechanism::{Configuration, Point};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
 use crate::system::{
@@ -285,14 +285,14 @@ fn begin<'a>(
         })
     };
     let mut dynamics = begin(Vec::new(), freedoms)?;
-    let mut massless = massless(mechanism, &mut dynamics)?;
+    let mut massless = massless(&mut dynamics)?;
     // links of no inertia about their own line do not spin
     if !massless.is_empty() && mobility.idle() > 0 {
         let still = locking.with_spins_still().still().to_vec();
         let left = freedoms.checked_sub(still.len());
         if let Some(left) = left.filter(moves) {
             dynamics = begin(still, left)?;
-            massless = self::massless(mechanism, &mut dynamics)?;
+            massless = self::massless(&mut dynamics)?;
         }
     }
     if !massless.is_empty() {
@@ -304,7 +304,7 @@ fn begin<'a>(
 }
 
 /// Independent coordinates of motions that move no mass.
-fn massless(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Result<Vec<String>, NoSimulation> {
+fn massless(dynamics: &mut Dynamics) -> Result<Vec<String>, NoSimulation> {
     let free = dynamics.coordinates().len();
     let Some(mass) = dynamics.mass() else {
         return Err(NoSimulation::Singular);
@@ -327,7 +327,7 @@ fn massless(mechanism: &Mechanism, dynamics: &mut Dynamics) -> Result<Vec<String
     };
     let coordinates = dynamics.coordinates().iter().enumerate();
     let names = coordinates.filter(|(i, _)| moves(*i));
-    Ok(names.map(|(_, of)| of.name(mechanism)).collect())
+    Ok(names.map(|(_, of)| dynamics.name(*of)).collect())
 }
 
 /// Rates of the independent coordinates for those of a drive: of many those of least kinetic energy, M⁻¹Aᵀ(A M⁻¹Aᵀ)⁺r.

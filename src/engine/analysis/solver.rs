@@ -56,11 +56,6 @@ pub enum NoSolver {
     /// Forces are wanted that follow from a function which needs a library.
     #[error("a force follows from `{}`, which needs a library of functions", _0.word())]
     Function(Function),
-    /// Forces are wanted where an angle of a platform is an input: rates of three angles are no angular velocity.
-    #[error(
-        "`{0}` is an angle of a platform, whose rate is no angular velocity: there is no force along it"
-    )]
-    PlatformAngle(String),
     /// Forces are wanted that the motion of the inputs does not determine.
     #[error("the forces at the inputs are not determined")]
     Undetermined,

@@ -5,7 +5,7 @@ mod closing;
 
 use super::{Coordinate, Freedoms, Instant, Load, Motion, Still, System};
 use crate::linear::{add, dot, norm};
-use crate::mechanism::{Configuration, Friction, Mechanism};
+use crate::mechanism::{Configuration, Friction, Mechanism, turn_near};
 use chart::{Base, Chart, accelerations};
 
 /// The equations of motion of an assembled mechanism, M(q)·q̈ = Q(q, q̇, t), in independent coordinates q: joints and
@@ -175,10 +175,22 @@ impl<'a> Dynamics<'a> {
         &self.chart.motion
     }
 
-    /// Values of the coordinates that move at a configuration, in m and rad.
+    /// Values of the coordinates that move at a configuration, in m and rad; angles of platforms beside those at the base.
     pub fn values(&self, at: &Configuration<f64>) -> Vec<f64> {
-        let coordinates = self.moved().iter();
-        coordinates.map(|of| of.of(self.mechanism, at)).collect()
+        let at = self.chart.measured(at);
+        let value = |(i, of): (usize, &Coordinate)| {
+            let value = of.of(self.mechanism, &at);
+            match (of, self.base.values.get(i)) {
+                (Coordinate::Pose(_, c), Some(base)) if c.is_angle() => turn_near(value, *base),
+                _ => value,
+            }
+        };
+        self.moved().iter().enumerate().map(value).collect()
+    }
+
+    /// The name of one of its coordinates.
+    pub fn name(&self, of: Coordinate) -> String {
+        self.chart.name(of, self.mechanism)
     }
 
     /// The sizes of the dimensionless units of the coordinates that move, in m and rad.
@@ -198,31 +210,52 @@ impl<'a> Dynamics<'a> {
         let mut units = units
             .map(|of| of.scale(self.mechanism))
             .zip(&self.responses);
-        if units.all(|(unit, of)| largest(of) * unit <= FASTEST) {
+        let slow = units.all(|(unit, of)| largest(of) * unit <= FASTEST);
+        if slow && self.chart.leads(self.configuration()) {
             return Ok(None);
         }
         let (at, free) = (self.configuration().clone(), self.chart.free);
         let fixed = (&self.locked[..], &self.still[..]);
         let others = Chart::choice(self.mechanism, fixed, free, &at)?;
-        if others == self.chart.coordinates {
+        if self.chart.is(&others) {
             return Ok(None);
         }
-        let rate = |of: &Coordinate| dot(&self.rates_of(*of), rates);
-        let rates = others[..free].iter().map(rate).collect();
-        self.chart = Chart::of(self.mechanism, self.load, &self.still, others, free, &at);
+        let others = Chart::of(self.mechanism, self.load, &self.still, others, free, &at);
+        let rates = self.rates_in(&others, rates);
+        self.chart = others;
+        self.base.values.clear();
         self.mass().ok_or(NoDynamics::Singular)?;
         self.stand();
         Ok(Some(rates))
     }
 
+    /// Rates of the coordinates of other equations at this configuration, driven ones last, for those of these.
+    pub fn rates_for(&self, others: &Dynamics, rates: &[f64]) -> Vec<f64> {
+        let mut found = self.rates_in(&others.chart, rates);
+        let driven = &others.moved()[others.chart.free..];
+        found.extend(driven.iter().map(|of| dot(&self.rates_of(*of), rates)));
+        found
+    }
+
+    /// Rates of the independent coordinates of another choice.
+    fn rates_in(&self, others: &Chart, rates: &[f64]) -> Vec<f64> {
+        let at = others.measured(self.configuration());
+        let all = others.coordinates[..others.free].iter();
+        all.map(|of| dot(&self.rates_at(*of, &at), rates)).collect()
+    }
+
     /// The rate of a coordinate for unit rates of each that moves where these were last evaluated.
     pub fn rates_of(&self, of: Coordinate) -> Vec<f64> {
+        self.rates_at(of, self.configuration())
+    }
+
+    fn rates_at(&self, of: Coordinate, at: &Configuration<f64>) -> Vec<f64> {
         let joints = self.mechanism.joints().len();
         let scale = of.scale(self.mechanism);
         let slope: Vec<(usize, f64)> = match of {
             Coordinate::Joint(joint) => vec![(joint, 1.0)],
             Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
-                let pose = self.configuration().platforms[platform].pose();
+                let pose = at.platforms[platform].pose();
                 let slope = of.slope(&pose, self.mechanism.characteristic_length());
                 (joints + 6 * platform..).zip(slope).collect()
             }
@@ -234,9 +267,12 @@ impl<'a> Dynamics<'a> {
         self.responses.iter().map(rate).collect()
     }
 
-    /// The smallest singular value of the closure equations over the largest: 0 where branches of motion meet, 1 without
-    /// equations.
+    /// The smallest singular value of the closure equations over the largest: 0 where branches of motion meet or a locked
+    /// angle of a platform has no value, 1 without equations.
     pub fn margin(&self) -> f64 {
+        if self.chart.is_gimbal_locked(self.configuration()) {
+            return 0.0;
+        }
         let fixed = (&self.locked[..], &self.still[..]);
         let at = self.configuration();
         let held = Chart::held(self.mechanism, fixed, at);

@@ -109,7 +109,9 @@ impl Enclosure {
         });
         let holds = holds.iter().filter_map(|(frame, hold)| {
             let what = match hold {
-                HoldRow::Coordinate(_, coordinate, value) => What::Coordinate(*coordinate, *value),
+                HoldRow::Coordinate(_, coordinate, value, _) => {
+                    What::Coordinate(*coordinate, *value)
+                }
                 HoldRow::Orientation(_, wanted) => What::Orientation(*wanted),
                 HoldRow::Spin(_) => return None,
             };

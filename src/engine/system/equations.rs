@@ -34,7 +34,7 @@ use crate::mechanism::{
     Mover, Need, Placement, PoseCoordinate, Side, needs,
 };
 use crate::solve::{Equations, Size};
-pub(crate) use layout::HoldRow;
+pub(crate) use layout::{HoldRow, measured};
 
 use layout::Layout;
 
@@ -243,7 +243,7 @@ impl<T: Factorable> System<T> {
         value: T,
     ) {
         for hold in &mut self.holds {
-            if let HoldRow::Coordinate(p, c, target) = hold
+            if let HoldRow::Coordinate(p, c, target, _) = hold
                 && (*p, *c) == (platform, coordinate)
             {
                 *target = value;

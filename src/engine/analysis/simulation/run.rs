@@ -219,6 +219,9 @@ impl<'a, 'd> Run<'a, 'd> {
             if started.is_err() {
                 break SimulationEnd::Stuck;
             }
+            if margin == 0.0 && !self.settings.through {
+                break SimulationEnd::Singular;
+            }
             if self.settings.linearised {
                 break match linear {
                     Some(_) => SimulationEnd::Linearised,
@@ -234,7 +237,7 @@ impl<'a, 'd> Run<'a, 'd> {
             }
             let before = (time, margin);
             let Ok(after) = integrator.step(&mut self.equations()) else {
-                break self.stuck(&integrator);
+                break SimulationEnd::Stuck;
             };
             self.steps += 1;
             let met = self.met(&mut integrator, before, after, &mut margin);
@@ -295,6 +298,10 @@ impl<'a, 'd> Run<'a, 'd> {
             if (integrator.start(&mut self.equations(), time, &state)).is_err() {
                 break SimulationEnd::Stuck;
             }
+        };
+        let end = match end {
+            SimulationEnd::Stuck => self.stuck(&integrator),
+            end => end,
         };
         SimulationReport {
             mechanism: self.mechanism.name().into(),

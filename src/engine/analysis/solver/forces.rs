@@ -91,13 +91,6 @@ impl VariablePlan<'_> {
             return Err(NoSolver::Friction);
         }
         let coordinates = self.coordinates();
-        let turned = coordinates.iter().find(|of| match of {
-            Coordinate::Pose(_, c) => c.is_angle(),
-            _ => false,
-        });
-        if let Some(of) = turned {
-            return Err(NoSolver::PlatformAngle(of.name(self.mechanism)));
-        }
         let count = coordinates.len();
         let inputs = |from: usize| -> Vec<Recorded> {
             (first + from..first + from + count)

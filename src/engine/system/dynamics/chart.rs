@@ -1,11 +1,14 @@
 //! A choice of independent coordinates.
 
-use crate::geometry::RollPitchYaw;
+use crate::geometry::{RollPitchYaw, Rotation};
 use crate::linear::{Decomposition, INDEPENDENT, norm, remove};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::number::real::hypot;
 use crate::solve::Warm;
+use crate::system::equations;
 use crate::system::{
-    Balance, Coordinate, Freedoms, Held, Load, Motion, MotionTracker, NoDynamics, Still, System,
+    Balance, Coordinate, Freedoms, Held, HeldPlatform, Load, Motion, MotionTracker, NoDynamics,
+    Still, System,
 };
 
 /// An assembled configuration with the derivatives of all unknowns by the independent coordinates.
@@ -19,11 +22,50 @@ pub(super) struct Base {
     pub curvature: Vec<f64>,
 }
 
+/// For each platform the orientation from which its angles are measured, if not that of ground: where it is pitched far,
+/// its roll and yaw turn about nearly one line.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct References(Vec<Option<Rotation<f64>>>);
+
+/// cos(pitch) beyond which angles lead well, and below which they no longer do.
+const LEVEL: [f64; 2] = [0.5, 0.25];
+
+impl References {
+    /// Those at a configuration: none of a platform of which an angle is locked.
+    fn at(mechanism: &Mechanism, locked: &[Coordinate], at: &Configuration<f64>) -> Self {
+        let turned = |platform: usize| {
+            let rotation = at.platforms[platform].pose().rotation;
+            let kept = locked
+                .iter()
+                .any(|of| of.platform() == Some(platform) && of.is_angle(mechanism));
+            (!kept && level(&rotation) < LEVEL[0]).then_some(rotation)
+        };
+        References((0..at.platforms.len()).map(turned).collect())
+    }
+
+    /// The configuration with orientations measured from these.
+    pub fn measured(&self, at: &Configuration<f64>) -> Configuration<f64> {
+        let mut measured = at.clone();
+        for (pose, reference) in measured.platforms.iter_mut().zip(&self.0) {
+            if reference.is_some() {
+                *pose = PlatformPose::from_pose(&equations::measured(&pose.pose(), reference));
+            }
+        }
+        measured
+    }
+}
+
+/// The cosine of the pitch.
+fn level(rotation: &Rotation<f64>) -> f64 {
+    hypot(rotation.0[0].0[0], rotation.0[0].0[1])
+}
+
 /// One choice of independent coordinates.
 pub(super) struct Chart {
     /// The independent coordinates, then those that are locked.
     pub coordinates: Vec<Coordinate>,
     pub free: usize,
+    references: References,
     pub motion: Motion,
     pub tracker: MotionTracker,
     pub balance: Balance,
@@ -37,20 +79,67 @@ impl Chart {
         freedoms: usize,
         at: &Configuration<f64>,
     ) -> Result<Self, NoDynamics> {
-        let coordinates = Chart::choice(mechanism, (locked, still), freedoms, at)?;
-        Ok(Chart::of(mechanism, load, still, coordinates, freedoms, at))
+        let choice = Chart::choice(mechanism, (locked, still), freedoms, at)?;
+        Ok(Chart::of(mechanism, load, still, choice, freedoms, at))
+    }
+
+    /// The configuration with orientations measured as its coordinates are.
+    pub fn measured(&self, at: &Configuration<f64>) -> Configuration<f64> {
+        self.references.measured(at)
+    }
+
+    /// True if these coordinates are that choice.
+    pub fn is(&self, (coordinates, references): &(Vec<Coordinate>, References)) -> bool {
+        self.coordinates == *coordinates && self.references == *references
+    }
+
+    /// True if an angle of a platform is locked that is pitched by ±90°, where it has no value.
+    pub fn is_gimbal_locked(&self, at: &Configuration<f64>) -> bool {
+        const UPRIGHT: f64 = 1e-3;
+        self.coordinates[self.free..].iter().any(|of| match *of {
+            Coordinate::Pose(platform, c) if c.is_angle() => {
+                level(&at.platforms[platform].pose().rotation) < UPRIGHT
+            }
+            _ => false,
+        })
+    }
+
+    /// False if an angle of a platform no longer leads well.
+    pub fn leads(&self, at: &Configuration<f64>) -> bool {
+        let at = self.measured(at);
+        self.coordinates[..self.free].iter().all(|of| match *of {
+            Coordinate::Pose(platform, c) if c.is_angle() => {
+                level(&at.platforms[platform].pose().rotation) > LEVEL[1]
+            }
+            _ => true,
+        })
+    }
+
+    /// The name of a coordinate: of an angle measured from where a platform was, that of the turn about an axis of ground.
+    pub fn name(&self, of: Coordinate, mechanism: &Mechanism) -> String {
+        match of {
+            Coordinate::Pose(platform, c) if self.references.0[platform].is_some() => {
+                Coordinate::turn_for(platform, c).name(mechanism)
+            }
+            _ => of.name(mechanism),
+        }
     }
 
     pub fn of(
         mechanism: &Mechanism,
         load: &Load,
         still: &[Still],
-        coordinates: Vec<Coordinate>,
+        (coordinates, references): (Vec<Coordinate>, References),
         free: usize,
         at: &Configuration<f64>,
     ) -> Self {
         let frames = Balance::<f64>::frames(mechanism, load, false);
-        let motion = Motion::placing(mechanism, &coordinates, &frames, |held| {
+        let motion = Motion::placing(mechanism, &coordinates, &frames, |mut held| {
+            for (platform, reference) in held.platforms.iter_mut().zip(&references.0) {
+                if let HeldPlatform::Partly(parts) = platform {
+                    parts.reference = *reference;
+                }
+            }
             Still::beside(still, held)
         });
         let balance = Balance::new(mechanism, load, &motion, motion.kinematics(), false);
@@ -64,6 +153,7 @@ impl Chart {
         tracker.restart(at);
         Chart {
             coordinates,
+            references,
             free,
             motion,
             tracker,
@@ -98,15 +188,17 @@ impl Chart {
         (locked, still): (&[Coordinate], &[Still]),
         freedoms: usize,
         at: &Configuration<f64>,
-    ) -> Result<Vec<Coordinate>, NoDynamics> {
+    ) -> Result<(Vec<Coordinate>, References), NoDynamics> {
         let held = Chart::held(mechanism, (locked, still), at);
         let system = System::new(mechanism.dimensions(), &held);
         let found = Freedoms::of(&system, at, &mut system.work());
         if found.motions.len() != freedoms {
             return Err(NoDynamics::Singular);
         }
+        let references = References::at(mechanism, locked, at);
+        let at = references.measured(at);
         let rate = |of: Coordinate, motion: &Vec<f64>| -> f64 {
-            let slope = of.slope_in(&system, at).into_iter();
+            let slope = of.slope_in(&system, &at).into_iter();
             slope.map(|(place, slope)| slope * motion[place]).sum()
         };
         let gimbal =
@@ -151,7 +243,7 @@ impl Chart {
             chosen.push(of);
         }
         chosen.extend_from_slice(locked);
-        Ok(chosen)
+        Ok((chosen, references))
     }
 }
 

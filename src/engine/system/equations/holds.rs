@@ -1,5 +1,6 @@
 //! The rows of platforms that are held in part.
 
+use super::layout::measured;
 use super::{Held, HoldRow, System, Unknown, Work};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, orientation_rows};
@@ -9,11 +10,10 @@ use crate::number::Field;
 pub(crate) fn hold_rows<T: Field>(held: &Held<T>, centre: &[f64; 3]) -> Vec<HoldRow<T>> {
     let mut rows = Vec::new();
     for (platform, held) in held.platforms.iter().enumerate() {
-        let single = held.coordinates().iter();
-        rows.extend(
-            single
-                .map(|&(c, value)| HoldRow::Coordinate(platform, c, c.about_centre(value, centre))),
-        );
+        let reference = held.parts().and_then(|parts| parts.reference);
+        rows.extend((held.coordinates().iter()).map(|&(c, value)| {
+            HoldRow::Coordinate(platform, c, c.about_centre(value, centre), reference)
+        }));
         rows.extend((held.orientation()).map(|wanted| HoldRow::Orientation(platform, wanted)));
         rows.extend(held.spins().iter().copied().map(HoldRow::Spin));
     }
@@ -32,8 +32,8 @@ impl<T: Factorable> System<T> {
         let mut row = 0;
         for hold in &self.holds {
             match hold {
-                HoldRow::Coordinate(platform, coordinate, value) => {
-                    let pose = at.platforms[*platform].pose();
+                HoldRow::Coordinate(platform, coordinate, value, reference) => {
+                    let pose = measured(&at.platforms[*platform].pose(), reference);
                     let (gap, slope) = coordinate.row(&pose, *value, self.length);
                     work.residual[first + row] = gap;
                     let place = row * width + twist_place(*platform);

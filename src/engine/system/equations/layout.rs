@@ -1,7 +1,7 @@
 //! Held coordinates, unknowns, and the blocks of the Jacobian.
 
 use super::Spin;
-use crate::geometry::Rotation;
+use crate::geometry::{Pose, Rotation};
 use crate::linear::{ColumnBlock, Factorable, SparseStep};
 use crate::mechanism::{ClosureEquations, Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
@@ -22,6 +22,8 @@ pub enum HeldPlatform<T> {
 pub struct HeldParts<T> {
     /// Single coordinates with their values, m and rad.
     pub coordinates: Vec<(PoseCoordinate, T)>,
+    /// The orientation from which single angles are measured, if not that of ground.
+    pub reference: Option<Rotation<T>>,
     /// A wanted orientation: ground from platform.
     pub orientation: Option<Rotation<T>>,
     /// Lines of its own about which it does not spin.
@@ -100,6 +102,7 @@ impl<T: Number> Held<T> {
                 coordinates: (parts.coordinates.iter())
                     .map(|&(c, x)| (c, f(x)))
                     .collect(),
+                reference: (parts.reference).map(|r| Rotation(r.0.map(|axis| axis.map(&mut f)))),
                 orientation: (parts.orientation)
                     .map(|r| Rotation(r.0.map(|axis| axis.map(&mut f)))),
                 spins: parts.spins.clone(),
@@ -197,9 +200,18 @@ impl Places {
 /// A row below the blocks: a platform coordinate held at a value, or a spin.
 #[derive(Clone, Debug)]
 pub(crate) enum HoldRow<T> {
-    Coordinate(usize, PoseCoordinate, T),
+    /// With the orientation from which an angle is measured, if not that of ground.
+    Coordinate(usize, PoseCoordinate, T, Option<Rotation<T>>),
     Orientation(usize, Rotation<T>),
     Spin(Spin),
+}
+
+/// A pose with its orientation measured from a reference.
+pub(crate) fn measured<T: Number>(pose: &Pose<T>, reference: &Option<Rotation<T>>) -> Pose<T> {
+    reference.map_or(*pose, |from| Pose {
+        rotation: pose.rotation * from.transpose(),
+        ..*pose
+    })
 }
 
 impl<T> HoldRow<T> {

@@ -1,6 +1,6 @@
 //! Rates of the equations, for following a solution while the inputs change.
 
-use super::layout::HoldRow;
+use super::layout::{HoldRow, measured};
 use super::{System, Work};
 use crate::geometry::Rotation;
 use crate::linear::{CANCELLED, Factorable, Qr, RANK_TOLERANCE};
@@ -47,8 +47,9 @@ impl<T: Factorable> System<T> {
                 products.fold(T::zero(), |sum, x| sum + x)
             };
             match hold {
-                HoldRow::Coordinate(platform, coordinate, _) => {
-                    let slope = coordinate.slope(work.placement.pose(1 + platform));
+                HoldRow::Coordinate(platform, coordinate, _, reference) => {
+                    let pose = measured(work.placement.pose(1 + platform), reference);
+                    let slope = coordinate.slope(&pose);
                     out[0] = along(&slope, twist(*platform));
                 }
                 HoldRow::Spin(spin) => {
@@ -71,10 +72,11 @@ impl<T: Factorable> System<T> {
         }
         let mut row = self.hold_rows().start;
         for hold in &self.holds {
-            if let HoldRow::Coordinate(platform, coordinate, _) = hold
+            if let HoldRow::Coordinate(platform, coordinate, _, reference) = hold
                 && coordinate.is_angle()
             {
-                let [x, y, _] = work.placement.pose(1 + platform).rotation.0[0].0;
+                let pose = measured(work.placement.pose(1 + platform), reference);
+                let [x, y, _] = pose.rotation.0[0].0;
                 work.residual[row] *= (x * x + y * y).sqrt();
             }
             row += hold.rows();
@@ -85,8 +87,9 @@ impl<T: Factorable> System<T> {
     /// there, which the entire rows also allow.
     pub fn sides_of_angles(&self, work: &Work<T>) -> Vec<T> {
         let side = |hold: &HoldRow<T>| match hold {
-            HoldRow::Coordinate(platform, coordinate, value) => {
-                coordinate.along(&work.placement.pose(1 + platform).rotation, *value)
+            HoldRow::Coordinate(platform, coordinate, value, reference) => {
+                let pose = measured(work.placement.pose(1 + platform), reference);
+                coordinate.along(&pose.rotation, *value)
             }
             _ => None,
         };
@@ -137,7 +140,7 @@ impl<T: Factorable> System<T> {
     /// The row of a platform coordinate that is held at a value by itself.
     pub fn coordinate_row(&self, platform: usize, coordinate: PoseCoordinate) -> Option<usize> {
         self.hold_row(|hold| {
-            matches!(hold, HoldRow::Coordinate(p, c, _) if (*p, *c) == (platform, coordinate))
+            matches!(hold, HoldRow::Coordinate(p, c, ..) if (*p, *c) == (platform, coordinate))
         })
     }
 

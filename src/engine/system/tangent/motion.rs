@@ -164,6 +164,14 @@ impl<T: Factorable> Motion<T> {
             self.system
                 .set_orientation(platform, pose.orientation.rotation());
         }
+        // over numbers that are not real the rows of angles are right at their values only
+        let held = self.coordinates.iter().filter(|_| !T::REAL);
+        for of in held {
+            if let Coordinate::Pose(platform, c) = *of {
+                self.system
+                    .set_target_about_centre(platform, c, of.about_centre(at));
+            }
+        }
         self.system.linearise(at, &mut self.work);
         self.system.factorise(0.0, &mut self.work);
         self.changing.placed = false;

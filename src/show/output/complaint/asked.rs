@@ -231,10 +231,6 @@ impl Wording<'_> {
                     "write the force as a table, or leave it out with {}",
                     self.role(Role::Without)
                 ),
-                NoSolver::PlatformAngle(_) => format!(
-                    "hold the joints that drive the platform instead, with {}",
-                    self.role(Role::Hold)
-                ),
                 NoSolver::Undetermined => format!("hold what drives the mechanism with {}", self.role(Role::Hold)),
             }),
             _ => said,

@@ -113,7 +113,7 @@ impl<'a> Run<'a, '_> {
         }
         let stuck = [&self.stuck[..], &[held]].concat();
         let dynamics = self.held(&stuck)?;
-        let rates = self.carried(&dynamics, rates);
+        let rates = self.dynamics.rates_for(&dynamics, rates);
         self.take(dynamics, stuck);
         for (i, friction) in self.dynamics.frictions().iter().enumerate() {
             if self.settings.speeds.is_empty() && !self.moves(friction.joint) {
@@ -137,14 +137,6 @@ impl<'a> Run<'a, '_> {
         self.dynamics
             .driving(self.settings.speeds.len(), &joints)
             .ok()
-    }
-
-    /// Rates of the coordinates of other equations, driven ones last, for those of these.
-    fn carried(&self, others: &Dynamics, rates: &[f64]) -> Vec<f64> {
-        let moved = others.moved().iter();
-        moved
-            .map(|of| dot(&self.dynamics.rates_of(*of), rates))
-            .collect()
     }
 
     fn take(&mut self, dynamics: Dynamics<'a>, stuck: Vec<Stuck>) {
@@ -172,7 +164,7 @@ impl<'a> Run<'a, '_> {
             let mut others = self.stuck.clone();
             others.remove(k);
             let mut dynamics = self.held(&others)?;
-            let rates = self.carried(&dynamics, rates);
+            let rates = self.dynamics.rates_for(&dynamics, rates);
             let free = dynamics.coordinates().len();
             let mass = Decomposition::of(free, free, &dynamics.mass()?);
             let along = |dynamics: &Dynamics, joint: usize| {

@@ -11,7 +11,7 @@ impl Run<'_, '_> {
         let (mechanism, free) = (self.mechanism, self.free());
         let (rates, instant) = at(self.dynamics, &self.laws, 0.0, &self.state)?;
         let names = self.dynamics.coordinates().iter();
-        let names = names.map(|of| (of.name(mechanism), of.is_angle(mechanism)));
+        let names = names.map(|of| (self.dynamics.name(*of), of.is_angle(mechanism)));
         let states: Vec<NamedUnit> = names
             .map(|(name, angle)| NamedUnit::new(name, SiUnit::of_coordinate(angle)))
             .collect();
