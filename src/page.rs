@@ -8,6 +8,7 @@
 mod abi;
 mod grip;
 mod live;
+mod motion;
 mod request;
 mod shown;
 mod state;
@@ -21,7 +22,6 @@ use serde_json::{Value, json};
 use crate::algebra::Measure;
 use crate::analysis::assembly::AssemblySettings;
 use crate::analysis::rounding::posed;
-use crate::analysis::sweep::{MetKind, MotionReport, Row, SweepEnd, SweepSettings};
 use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
 use crate::description::{Description, Problem};
 use crate::mechanism::{Configuration, Mechanism};
@@ -32,7 +32,7 @@ use crate::output::{AnyReport, JsonReport};
 use crate::scene::Scene;
 use crate::solve::Watch;
 use crate::system::Coordinate;
-use request::{Analysis, LoadRequest, MeasureKind, Press, Request, SweepRequest};
+use request::{Analysis, LoadRequest, MeasureKind, Press, Request};
 use state::State;
 
 /// State of a page between requests.
@@ -44,14 +44,6 @@ pub struct Page {
     load: Option<Press>,
     /// The quantities that are read.
     watched: String,
-}
-
-/// A configuration of a motion.
-#[derive(Serialize)]
-struct ShownRow {
-    at: State,
-    special: Option<MetKind>,
-    points: Vec<[f64; 3]>,
 }
 
 /// Configurations of an answer that lists none.
@@ -71,6 +63,7 @@ impl Page {
         let reply = match serde_json::from_str(request) {
             Ok(Request::Ask { what, as_filed }) => self.ask(what, as_filed, &Watch::none()),
             Ok(Request::Sweep(sweep)) => self.sweep(&sweep, &Watch::none()),
+            Ok(Request::LetGo(asked)) => self.let_go(&asked, &Watch::none()),
             Ok(request) => self.reply(request).map(|reply| reply.to_string()),
             Err(error) => Err(nothing(&error.to_string())),
         };
@@ -142,7 +135,7 @@ impl Page {
             }
             Request::Show { at, frames } => {
                 let at = configuration(&at, &mechanism)?;
-                let scene = Scene::of(&mechanism, &at);
+                let scene = Scene::of(&mechanism, &at).with_loads(&mechanism, &at);
                 let scene = match frames {
                     true => scene.with_frames(&mechanism, &at),
                     false => scene,
@@ -157,7 +150,11 @@ impl Page {
                 let picture = sheet(&[panel], &DrawingSettings { view, labels });
                 Ok(json!({ "svg": picture.svg() }))
             }
-            Request::Ask { .. } | Request::Sweep(_) | Request::Load(_) | Request::Move { .. } => {
+            Request::Ask { .. }
+            | Request::Sweep(_)
+            | Request::LetGo(_)
+            | Request::Load(_)
+            | Request::Move { .. } => {
                 unreachable!("answered before")
             }
         }
@@ -254,51 +251,6 @@ impl Page {
         })
     }
 
-    fn sweep(&self, sweep: &SweepRequest, watch: &Watch) -> Result<String, RefusedReply> {
-        let mechanism = &self.mechanism()?;
-        let asked = self.asked(mechanism);
-        let mut asked = match &sweep.input {
-            Some((name, from, to)) => (asked.let_go(name)).input(name, *from, *to),
-            // along the whole curve, from where it is
-            None => {
-                let steering = self.steering()?;
-                let values = steering.driven().iter();
-                let values = values.map(|of| (of.name(mechanism), of.of(mechanism, steering.at())));
-                values.fold(asked, |asked, (name, value)| {
-                    asked.let_go(&name).guess(name, value)
-                })
-            }
-        };
-        for point in &sweep.points {
-            asked = asked.point(point);
-        }
-        for quantity in &sweep.report {
-            asked = asked.report(quantity);
-        }
-        let settings = SweepSettings {
-            steps: sweep.steps,
-            follow: sweep.follow,
-            ..SweepSettings::default()
-        };
-        let motions = asked.motions(&settings, watch).map_err(refused(&asked))?;
-        let mut states = Vec::new();
-        let mut keep = |_: Option<usize>, row: &Row| {
-            states.push(ShownRow {
-                at: State::of(row.configuration),
-                special: row.special.cloned(),
-                points: row.points.to_vec(),
-            });
-        };
-        let report = motions.report(usize::MAX, &mut keep, watch);
-        let begins = |motion: &MotionReport| motion.sweep.ending != SweepEnd::SingularStart;
-        if !report.motions.iter().all(begins) {
-            return Err(nothing(
-                "The motion begins where branches meet. Move the mechanism a little first, so that it is on one of them.",
-            ));
-        }
-        Ok(answered(mechanism, &report, &states))
-    }
-
     fn steering(&self) -> Result<&Steering, RefusedReply> {
         self.steering.as_ref().ok_or_else(not_assembled)
     }
@@ -322,10 +274,10 @@ impl Page {
     fn here(&self, mechanism: &Mechanism) -> (Configuration<f64>, Scene, Value) {
         let Some(steering) = &self.steering else {
             let home = mechanism.home();
-            let scene = Scene::of(mechanism, &home);
+            let scene = Scene::of(mechanism, &home).with_loads(mechanism, &home);
             return (home, scene, Value::Null);
         };
-        let scene = Scene::of(mechanism, steering.at());
+        let scene = Scene::of(mechanism, steering.at()).with_loads(mechanism, steering.at());
         let (scene, forces) = match &self.load {
             Some(load) => live::pressed(steering, load, scene),
             None => (scene, Value::Null),

@@ -77,7 +77,7 @@ mod tests {
     fn the_page_brings_every_mechanism_as_it_is() {
         let shipped = shipped();
         let mut count = 0;
-        for folder in ["", "axes/"] {
+        for folder in ["", "axes/", "loads/"] {
             let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
             for entry in path.join(folder).read_dir().unwrap().flatten() {
                 let name = format!("{folder}{}", entry.file_name().to_string_lossy());
@@ -128,6 +128,6 @@ mod tests {
         let policy = policy.split('"').next().unwrap();
         assert!(policy.starts_with("default-src 'none'; script-src 'sha256-"));
         assert!(!policy.contains("unsafe-inline") && !policy.contains("http"));
-        assert!(PAGE.len() < 2_500_000, "{} bytes", PAGE.len());
+        assert!(PAGE.len() < 2_800_000, "{} bytes", PAGE.len());
     }
 }

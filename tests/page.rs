@@ -77,6 +77,11 @@ fn pictures_in_the_page_read() {
 }
 
 #[test]
+fn what_acts_in_a_mechanism_moves_it_in_the_page() {
+    browse("loads.mjs");
+}
+
+#[test]
 fn mechanisms_are_drawn_in_the_page() {
     browse("drawing.mjs");
 }

@@ -32,7 +32,7 @@ const packed = (content) => gzipSync(content, { level: 9 }).toString("base64");
 // as script/lzma.js unpacks it
 const lzma = ["--format=raw", "--lzma1=preset=9e,lc=3,lp=0,pb=0", "--stdout", wasm];
 const solver = execFileSync("xz", lzma, { maxBuffer: 2 ** 24 }).toString("base64");
-const shipped = ["", "axes"].flatMap((folder) => {
+const shipped = ["", "axes", "loads"].flatMap((folder) => {
   const path = join(here, "../../mechanisms", folder);
   const names = readdirSync(path).filter((name) => name.endsWith(".ron")).sort();
   return names.map((name) => [join(folder, name), readFileSync(join(path, name), "utf8")]);

@@ -59,6 +59,8 @@ pub enum Request {
     },
     /// Moves one coordinate over a range, or follows the whole curve.
     Sweep(SweepRequest),
+    /// Lets the mechanism go where it is, under its loads.
+    LetGo(LetGoRequest),
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -125,8 +127,26 @@ pub struct SweepRequest {
     pub steps: usize,
     #[serde(default)]
     pub follow: bool,
+    /// The time that it takes, in s.
+    #[serde(default)]
+    pub duration: Option<f64>,
     #[serde(default)]
     pub points: Vec<String>,
     #[serde(default)]
     pub report: Vec<String>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct LetGoRequest {
+    /// In s.
+    pub duration: f64,
+    pub rows: usize,
+    /// Part of its speed with which a joint comes back from a limit; without it the motion ends there.
+    #[serde(default)]
+    pub restitution: Option<f64>,
+    /// Goes on straight where branches of motion meet.
+    #[serde(default)]
+    pub through: bool,
+    #[serde(default)]
+    pub points: Vec<String>,
 }

@@ -87,6 +87,7 @@ pub fn mechanism(mechanism: &Mechanism, description: &Description) -> Value {
         "length": length,
         "coordinates": coordinates.collect::<Vec<_>>(),
         "parameters": parameters.collect::<Vec<_>>(),
+        "loaded": !mechanism.loads().is_empty(),
         "outputs": mechanism.outputs().iter().map(|output| &output.name).collect::<Vec<_>>(),
     })
 }

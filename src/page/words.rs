@@ -2,11 +2,13 @@
 //! in place of options.
 
 use crate::algebra::SiUnit;
+use crate::analysis::simulation::{NoSimulation, SimulationEnd, SimulationReport};
 use crate::analysis::sweep::{MetKind, SweepEnd, SweepReport};
 use crate::ask::{AskError, Demand, Question, Remedy, Role, Steering};
 use crate::description::{ReplacementError, listed};
 use crate::output::complaint::{Complaint, Door, Ranged, Wording};
 use crate::output::quantity::quantity;
+use crate::output::simulation::{balance, happened, sentence as of_simulation};
 use crate::output::sweep::sentence;
 use crate::system::QuestionError;
 
@@ -38,6 +40,51 @@ pub fn stopped(report: &SweepReport) -> Option<String> {
         }
         _ => sentence(report),
     })
+}
+
+/// Reason for which the mechanism cannot be let go.
+pub fn not_let_go(report: &SimulationReport) -> Option<String> {
+    let SimulationEnd::NotBegun(why) = &report.end else {
+        return None;
+    };
+    Some(match why {
+        NoSimulation::Singular => {
+            "Branches of motion meet here, and which one is taken is not determined. Move the mechanism a little first.".into()
+        }
+        NoSimulation::NoMass(names) => format!(
+            "{} can move without moving any mass, so that the accelerations are not determined. Give the bodies that move a mass in \
+             the file.",
+            listed(names)
+        ),
+        _ => of_simulation(report),
+    })
+}
+
+/// The motion by itself: how it ended, what happened on the way, and the balance of energies.
+pub fn let_go(report: &SimulationReport) -> Vec<String> {
+    /// Events that are told.
+    const MOST: usize = 12;
+    let ended = match report.end {
+        SimulationEnd::Singular => format!(
+            "After {} branches of motion meet, and which one is taken is not determined. Tick “straight on” to go through.",
+            quantity(report.reached, SiUnit::SECOND)
+        ),
+        _ => of_simulation(report),
+    };
+    let events = report.events.iter().take(MOST);
+    let events = events.map(|of| {
+        let time = quantity(of.time, SiUnit::SECOND);
+        format!("At {time} {}.", happened(of))
+    });
+    let more = report.events.len().saturating_sub(MOST);
+    let more = (more > 0).then(|| format!("{more} further events."));
+    let balance = format!("In all: {}.", balance(report));
+    [ended]
+        .into_iter()
+        .chain(events)
+        .chain(more)
+        .chain([balance])
+        .collect()
 }
 
 /// Reason for which a part did not follow a pointer. A pull goes round dead points: where a step ended before one, the next goes on.

@@ -7,6 +7,7 @@
 mod answers;
 mod bearings;
 mod links;
+mod loads;
 mod motion;
 
 pub(crate) use motion::across;
@@ -54,6 +55,38 @@ pub struct Scene {
     /// Forces.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub arrows: Vec<ForceArrow>,
+    /// Springs and dampers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<SpringShape>,
+    /// Bodies with mass, and their weights.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub weights: Vec<Weight>,
+}
+
+/// A spring or a damper.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpringShape {
+    /// Its name.
+    pub name: String,
+    /// Its ends; at a hinge both are the point about which it turns.
+    pub ends: [Triple; 2],
+    /// The axis of the hinge at which it acts: a unit vector.
+    pub axis: Option<Triple>,
+    /// True if it pulls or pushes.
+    pub elastic: bool,
+    /// True if it damps.
+    pub damping: bool,
+}
+
+/// A mass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Weight {
+    /// The body, or a frame on it.
+    pub name: String,
+    /// The centre of mass.
+    pub at: Triple,
+    /// Its weight, in N.
+    pub force: Triple,
 }
 
 /// Travel of a joint to its limits.

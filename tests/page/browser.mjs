@@ -3,7 +3,7 @@ import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { files, root } from "./files.mjs";
+import { files, loads, root } from "./files.mjs";
 import { browser, check, dragged, drawn, folder, inked, loaded, opened, program, run, said, shown, values } from "./harness.mjs";
 
 /** Files that are opened in pages of their own: planar, spatial, from joint coordinates. */
@@ -201,7 +201,7 @@ const tests = {
     const page = await opened("");
     await page.waitForSelector("#gallery[open]");
     const names = await page.$$eval("#gallery-items button", (all) => all.map((item) => item.dataset.file));
-    const shipped = files.map((file) => file.replace("mechanisms/", ""));
+    const shipped = [...files, ...loads].map((file) => file.replace("mechanisms/", ""));
     check(JSON.stringify(names.toSorted()) === JSON.stringify(shipped.toSorted()), `shown are ${names}`);
     await page.click('#gallery-items button[data-file="delta.ron"]');
     check((await page.$eval("#name", (element) => element.textContent)) === "Delta robot", "another is opened");

@@ -5,6 +5,9 @@ import { fileURLToPath } from "node:url";
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 
-export const files = ["mechanisms", "mechanisms/axes"].flatMap((folder) =>
-  readdirSync(join(root, folder)).filter((name) => name.endsWith(".ron")).sort().map((name) => join(folder, name)),
-);
+const within = (folder) => readdirSync(join(root, folder)).filter((name) => name.endsWith(".ron")).sort().map((name) => join(folder, name));
+
+export const files = ["mechanisms", "mechanisms/axes"].flatMap(within);
+
+/** Those in which something acts. */
+export const loads = within("mechanisms/loads");

@@ -73,6 +73,9 @@ pub struct SimulationReport {
     pub columns: Vec<NamedUnit>,
     /// Values at equal times, and at the end.
     pub rows: Vec<Vec<f64>>,
+    /// The configurations of the rows.
+    #[serde(skip)]
+    pub configurations: Vec<Configuration<f64>>,
     /// The time reached, in s.
     pub reached: f64,
     /// The end of the simulation.
@@ -246,6 +249,7 @@ pub fn simulation(
         freedoms: 0,
         columns: Vec::new(),
         rows: Vec::new(),
+        configurations: Vec::new(),
         reached: 0.0,
         events: Vec::new(),
         linear: None,

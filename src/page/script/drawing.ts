@@ -40,7 +40,8 @@ export function points(scene: Scene): Vector3[] {
     const up = v(axis).cross(right);
     return [right, up, right.clone().negate(), up.clone().negate()].map((rim) => rim.add(v(at)));
   });
-  return [...[...bodies, ...scene.rods.flatMap((rod) => rod.ends), ...joints].map(v), ...wheels];
+  const acting = [...(scene.springs ?? []).flatMap((of) => of.ends), ...(scene.weights ?? []).map((of) => of.at)];
+  return [...[...bodies, ...scene.rods.flatMap((rod) => rod.ends), ...joints, ...acting].map(v), ...wheels];
 }
 
 /** Sine of the angle below the horizontal from which on a link hangs from its pin on ground. */

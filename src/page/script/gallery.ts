@@ -14,6 +14,7 @@ const TOPICS: [string, RegExp][] = [
   ["Parallel robots", /stewart|rps|delta|rpr|agile|orthoglide|hexaglide|h4|tricept|dietmaier|hand/],
   ["Serial arms", /puma|scara|stanford|elbow|wrist|planar_\d|cylindrical|rpp/],
   ["Overconstrained and spatial loops", /bennett|bricard|goldberg|myard|schatz|spherical|rssr/],
+  ["Let go and driven", /^loads\//],
   ["Machines", /axes\/(?!four_bar)/],
   ["Planar linkages", /./],
 ];

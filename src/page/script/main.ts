@@ -3,6 +3,7 @@ import { Vector3 } from "three";
 import { Background } from "./background";
 import { Desk } from "./desk";
 import { dragging } from "./drag";
+import { Drive } from "./drive";
 import { Drawing, guides, jointSize, type Plane, planeOf, points } from "./drawing";
 import { Editor } from "./editor";
 import { button, find } from "./elements";
@@ -24,6 +25,7 @@ import { Holding } from "./holding";
 import { newFile } from "./newfile";
 import { Quantities } from "./quantities";
 import { Solver } from "./solver";
+import { falling } from "./springs";
 import { Stage, type View } from "./stage";
 import { Surroundings } from "./surroundings";
 import { onThemeChange } from "./theme";
@@ -143,6 +145,7 @@ class Picture {
     const extent = 2 * Math.max(...all.map((p) => p.distanceTo(middle)), 1e-9);
     this.drawing.size = jointSize(scene, extent);
     this.scenery.arrows.extent = extent;
+    this.scenery.falling = falling(scene, all, extent);
     find("views").querySelector<HTMLElement>("[data-view=plane]")!.hidden = this.plane === null;
     if (this.drawn) return;
     if (mechanism.name !== this.shown) this.look(this.plane ? "plane" : "iso");
@@ -172,7 +175,7 @@ class Picture {
   fit() {
     if (!this.scene) return;
     const beside = [...this.scenery.ghosts, ...this.motion].flatMap(points);
-    this.stage.fit([...points(this.scene), ...guides(this.scene, this.drawing.size), ...beside, ...traced(this), ...this.tips]);
+    this.stage.fit([...points(this.scene), ...guides(this.scene, this.drawing.size), ...(this.scenery.falling ?? []), ...beside, ...traced(this), ...this.tips]);
     this.draw();
   }
 
@@ -211,7 +214,7 @@ class Picture {
   }
 
   look(view: View) {
-    if (this.scene) this.stage.look(view, [...points(this.scene), ...guides(this.scene, this.drawing.size)], this.plane);
+    if (this.scene) this.stage.look(view, [...points(this.scene), ...guides(this.scene, this.drawing.size), ...(this.scenery.falling ?? [])], this.plane);
     this.draw();
   }
 }
@@ -262,6 +265,7 @@ async function begin() {
     },
   );
   const load = new Load(model, picture.scenery.arrows, () => picture.down);
+  const drive = new Drive(model, module);
   new GainedFreedoms(model, (screws, swung) => {
     Object.assign(picture.scenery, { screws, swung });
     picture.draw();
@@ -319,7 +323,7 @@ async function begin() {
   if (given.watch) watching(model);
   requestAnimationFrame(() => performance.mark("picture"));
   // for whoever tests or scripts the page
-  Object.assign(globalThis, { linkwork: model, picture, holding, desk, modes });
+  Object.assign(globalThis, { linkwork: model, picture, holding, desk, modes, motion, drive });
   document.documentElement.dataset.ready = "true";
 }
 

@@ -199,11 +199,11 @@ export class Model {
     return this.solver.ask<{ scene: Scene }>({ do: "show", at }).scene;
   }
 
-  /** Long work about the mechanism as it is. */
-  async study<Reply>(request: Request): Promise<Reply> {
+  /** Long work about the mechanism as it is, or near another configuration. */
+  async study<Reply>(request: Request, background = this.background, near = this.place().at): Promise<Reply> {
     const { text, set } = this.file;
-    const { held, at } = this.place();
-    return this.background.ask<Reply>([{ do: "load", text, set, held, near: at }, request]);
+    const { held, load } = this.place();
+    return background.ask<Reply>([{ do: "load", text, set, held, near, load }, request]);
   }
 
   /** Shows why there is no answer. */

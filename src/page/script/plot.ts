@@ -26,7 +26,7 @@ export class Plot {
 
   /** The abscissa: a column, or the number of the row. */
   private at(row: (number | null)[], i: number): number {
-    return this.x > 0 ? (row[this.x] ?? 0) * this.factor(this.x) : i;
+    return this.x >= 0 ? (row[this.x] ?? 0) * this.factor(this.x) : i;
   }
 
   private factor(column: number): number {
@@ -34,7 +34,7 @@ export class Plot {
   }
 
   title(column: number): string {
-    return column > 0 ? this.columns[column]!.replace("(rad)", "(°)") : "row";
+    return column >= 0 ? this.columns[column]!.replace("(rad)", "(°)") : "row";
   }
 
   private across(x: number): number {
@@ -57,7 +57,7 @@ export class Plot {
     [this.low, this.high] = [Math.min(...xs), Math.max(...xs)];
     const free = [...this.unbounded].some((name) => this.columns[y] === name || this.columns[y]!.startsWith(`${name} (`));
     let [bottom, top] = free ? most(known) : [Math.min(...known), Math.max(...known)];
-    if (top - bottom < 1e-9 * Math.max(Math.abs(top), 1e-9)) [bottom, top] = [bottom - 0.5, top + 0.5];
+    if (top - bottom < 1e-9 * Math.max(Math.abs(top), 1e-3)) [bottom, top] = [bottom - 0.5, top + 0.5];
     const up = (value: number) => canvas.height - 52 - ((value - bottom) / (top - bottom)) * (canvas.height - 92);
     pen.strokeStyle = colour("--line");
     pen.fillStyle = colour("--soft");

@@ -3,6 +3,7 @@ import { Vector3 } from "three";
 import { Arrows, type Note, screw, type Words } from "./arrows";
 import type { Trace } from "./motion";
 import { Shapes } from "./shapes";
+import { loads } from "./springs";
 import { theme } from "./theme";
 import type { Scene, Screw, Triple } from "./types";
 
@@ -16,6 +17,8 @@ export class Scenery {
   /** The mechanism moved about the screws. */
   swung: Scene[] = [];
   readonly arrows = new Arrows();
+  /** The arrow that shows which way things fall. */
+  falling: [Vector3, Vector3] | null = null;
   notes: Note[] = [];
 
   /** Beside a scene, of which the arrows are drawn with these words. */
@@ -27,17 +30,24 @@ export class Scenery {
     for (const scene of this.swung) this.ghost(scene, size, theme().gained);
     for (const moved of this.screws) screw(shapes, moved, size);
     this.notes = this.arrows.draw(shapes, scene, words, size, raised);
+    this.notes.push(...loads(shapes, scene, this.arrows.extent, size, raised));
+    if (this.falling) {
+      shapes.arrow(...(this.falling.map(raised) as [Vector3, Vector3]), 0.2 * size, theme().acts);
+      this.notes.push({ words: "g", at: this.falling[1] });
+    }
     for (const trace of this.traces) {
-      const points = trace.points.map(v);
-      for (let i = 0; i + 1 < points.length; i++) {
-        shapes.cylinder(...between(points[i]!, points[i + 1]!, 0.13 * size), theme().trace);
-      }
+      this.curve(trace.points, size);
       for (const { at, words } of trace.marks) {
         shapes.ball(v(at), 0.5 * size, theme().trace);
         this.notes.push({ words, at: v(at) });
       }
     }
     shapes.end();
+  }
+
+  private curve(places: Triple[], size: number) {
+    const points = places.map(v);
+    points.slice(1).forEach((to, i) => this.shapes.cylinder(...between(points[i]!, to, 0.13 * size), theme().trace));
   }
 
   private ghost(scene: Scene, size: number, colour: string) {

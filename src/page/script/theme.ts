@@ -17,15 +17,17 @@ export interface Theme {
   load: string;
   reaction: string;
   gained: string;
+  /** Springs and weights of the file. */
+  acts: string;
 }
 
 const LIGHT: Theme = {
   paper: "#fdfdfc", ink: "#222222", ground: "#777777", plate: "#cfcfcc", joint: "#ffffff", solid: "#c4c4c0", driven: "#E69F00",
-  trace: "#D55E00", ghost: "#b8b8b8", load: "#D55E00", reaction: "#007a58", gained: "#a8437f",
+  trace: "#D55E00", ghost: "#b8b8b8", load: "#D55E00", reaction: "#007a58", gained: "#a8437f", acts: "#6a4fb0",
 };
 const DARK: Theme = {
   paper: "#191a1b", ink: "#e4e4e0", ground: "#9a9a96", plate: "#45474a", joint: "#2a2c2e", solid: "#d9d9d6", driven: "#E69F00",
-  trace: "#ff8c42", ghost: "#55585c", load: "#ff8c42", reaction: "#3fc79b", gained: "#e39ac6",
+  trace: "#ff8c42", ghost: "#55585c", load: "#ff8c42", reaction: "#3fc79b", gained: "#e39ac6", acts: "#b7a3f0",
 };
 
 const dark = matchMedia("(prefers-color-scheme: dark)");

@@ -55,6 +55,15 @@ export interface Screw {
   pitch: number | null;
 }
 
+/** A spring or a damper; at a hinge both ends are one point, and it has an axis. */
+export interface SpringShape {
+  name: string;
+  ends: [Triple, Triple];
+  axis: Triple | null;
+  elastic: boolean;
+  damping: boolean;
+}
+
 export interface Scene {
   mechanism: string;
   normal: Triple | null;
@@ -64,6 +73,9 @@ export interface Scene {
   wheels?: Wheel[];
   arrows?: Arrow[];
   screws?: Screw[];
+  springs?: SpringShape[];
+  /** Centres of mass, with the weights there in N. */
+  weights?: { name: string; at: Triple; force: Triple }[];
   frames?: { name: string; at: Triple; axes: [Triple, Triple, Triple] }[];
 }
 
@@ -155,6 +167,8 @@ export interface Mechanism {
   coordinates: Coordinate[];
   parameters: Parameter[];
   outputs: string[];
+  /** Whether it has masses, springs, forces or friction. */
+  loaded: boolean;
 }
 
 export interface Problem {
@@ -192,6 +206,24 @@ export interface Row {
   points: Triple[];
 }
 
+/** The range of a quantity; `at_least` if it was not bounded on all of the curve. */
+export interface Extremes {
+  name: string;
+  unit: string;
+  constant?: number;
+  least?: { value: number; inputs: number[] };
+  greatest?: { value: number; inputs: number[] };
+  unbounded?: unknown[];
+  at_least?: boolean;
+}
+
+/** A motion by itself, with the sentences about it. */
+export interface LetGo {
+  said: string[];
+  report: { columns: { name: string; unit: string }[]; rows: number[][] };
+  states: Row[];
+}
+
 export interface Swept {
   report: {
     sentence: string;
@@ -199,7 +231,7 @@ export interface Swept {
       ending: string;
       columns: string[];
       values: (number | null)[][];
-      extremes?: { name: string; unbounded?: unknown[] }[];
+      extremes?: Extremes[];
       met: { met: string; part: number | null; inputs: number[]; joints: number[] }[];
     }[];
   };
@@ -222,7 +254,8 @@ export type Request =
   | { do: "show"; at: State; frames?: boolean }
   | { do: "picture"; from?: [number, number] | null; labels?: boolean }
   | { do: "ask"; what: "solve" | "assemblies" | "mobility"; as_filed?: boolean }
-  | { do: "sweep"; input?: [string, number, number]; steps: number; follow?: boolean; points?: string[]; report?: string[] };
+  | { do: "sweep"; input?: [string, number, number]; steps: number; follow?: boolean; duration?: number; points?: string[]; report?: string[] }
+  | { do: "let_go"; duration: number; rows: number; restitution: number | null; through: boolean; points: string[] };
 
 /** Why there is no answer. */
 export class Refused extends Error {

@@ -46,7 +46,8 @@ impl Report for SimulationReport {
     }
 }
 
-fn sentence(report: &SimulationReport) -> String {
+/// How a simulation ended.
+pub fn sentence(report: &SimulationReport) -> String {
     let time = quantity(report.reached, SiUnit::SECOND);
     let freedoms = count(report.freedoms, "freedom");
     match &report.end {
@@ -94,7 +95,8 @@ fn not_begun(why: &NoSimulation) -> String {
     }
 }
 
-fn balance(report: &SimulationReport) -> String {
+/// The energies of a simulation and their balance.
+pub fn balance(report: &SimulationReport) -> String {
     let energy = &report.energy;
     let joules = |x: f64| format!("{} J", number(x));
     let lost = match energy.lost > 0.0 {
@@ -138,8 +140,9 @@ fn linearised(of: &Linear) -> [Section; 3] {
     ]
 }
 
-fn events(events: &[SimulationEvent]) -> Section {
-    let words = |of: &SimulationEvent| match &of.event {
+/// An event of a simulation in words.
+pub fn happened(of: &SimulationEvent) -> String {
+    match &of.event {
         Happened::Impact { joint, loss, .. } => {
             format!(
                 "{joint} comes back from its limit; {} J lost",
@@ -156,10 +159,13 @@ fn events(events: &[SimulationEvent]) -> Section {
         }
         Happened::Leaves { joint } => format!("{joint} leaves its limit"),
         Happened::Singular => "branches of motion meet; it goes straight through".into(),
-    };
+    }
+}
+
+fn events(events: &[SimulationEvent]) -> Section {
     let table = Table::of(events);
     let table = table.numbers("t", |of| Cell::quantity(of.time, SiUnit::SECOND));
-    Section::new("Events").table(table.words("", words))
+    Section::new("Events").table(table.words("", happened))
 }
 
 /// Rows shown at most; more are thinned evenly.

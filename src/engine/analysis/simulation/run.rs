@@ -38,6 +38,7 @@ pub(super) struct Run<'a, 'd> {
     state: Vec<f64>,
     energy: EnergyBalance,
     rows: Vec<Vec<f64>>,
+    configurations: Vec<Configuration<f64>>,
     events: Vec<SimulationEvent>,
     residual: f64,
     steps: usize,
@@ -173,6 +174,7 @@ impl<'a, 'd> Run<'a, 'd> {
                 ..EnergyBalance::default()
             },
             rows: Vec::new(),
+            configurations: Vec::new(),
             events: Vec::new(),
             residual: 0.0,
             steps: 0,
@@ -308,6 +310,7 @@ impl<'a, 'd> Run<'a, 'd> {
             freedoms: self.freedoms,
             columns: self.columns(),
             rows: self.rows,
+            configurations: self.configurations,
             reached: time,
             end,
             events: self.events,

@@ -84,8 +84,16 @@ impl Run<'_, '_> {
         let balance = energy.end - energy.start - supplied + energy.lost;
         energy.error = energy.error.max(balance.abs());
         self.residual = self.residual.max(self.dynamics.residual());
-        let row = [time].into_iter().chain(values).chain([supplied]);
+        let row = [time]
+            .into_iter()
+            .chain(values.iter().copied())
+            .chain([supplied]);
         self.rows.push(row.collect());
+        let mut there = self.dynamics.configuration().clone();
+        // beside a singular configuration the equations stand to one side of it, the joints of the row in its middle
+        let joints = there.joints.iter_mut().zip(values.chunks(2));
+        joints.for_each(|(to, pair)| *to = pair[0]);
+        self.configurations.push(there);
         true
     }
 }
