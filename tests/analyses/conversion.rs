@@ -450,3 +450,55 @@ fn masses_and_loads_stay_where_they_are() {
         assert!((moment(&of) - expected).abs() < 1e-12, "{}", moment(&of));
     }
 }
+
+/// A four-bar on a body that floats has its own freedom and six of the body, also as joint coordinates; the angle of its
+/// coupler follows from the cosine theorem.
+#[test]
+fn bodies_that_float_are_joint_coordinates_too() {
+    let text = r#"Mechanism(
+        version: 1, name: "on a float", convention: Modified,
+        joints: { "a": Actuated(home: "90 deg"), "b": Passive(home: "-60 deg"), "c": Passive(home: "80 deg") },
+        platforms: { "float": Platform(home: [T(0.1, 0.2, 1), Rx("30 deg")], frames: { "pin": [Tx(4)] }) },
+        chains: {
+            "left": Chain(on: "float", rows: [(theta: "a"), (a: 2, theta: "b")], tip: [Tx(3.5)]),
+            "right": Chain(on: "float.pin", rows: [(theta: "c")], tip: [Tx(3)]),
+        },
+        closures: { "tip": Revolute("left", "right") },
+    )"#;
+    let description = Description::read(text).unwrap();
+    let mechanism = Mechanism::new(&description).unwrap();
+    let (axes, _) = to_axes(&mechanism, &description).unwrap();
+    let written = Description::read(&axes.to_ron().unwrap()).unwrap();
+    for of in [description, axes.tables().unwrap(), written] {
+        let mechanism = Mechanism::new(&of).unwrap();
+        let question = ask::Question::new(mechanism.clone()).hold("a", FRAC_PI_2);
+        let report = question.mobility(&Watch::none()).unwrap().closed().unwrap();
+        assert_eq!(report.mobility, 7);
+        let found = question.closed(&Watch::none()).unwrap().closed().unwrap();
+        // the diagonal from the crank's pin to the rocker's is sqrt(20)
+        let inside = (20.0 + 3.5 * 3.5 - 9.0) / (2.0 * 20.0_f64.sqrt() * 3.5);
+        let coupler = inside.acos() + (-2.0_f64).atan2(4.0) - FRAC_PI_2;
+        let b = found.configuration.joints[mechanism.joint("b").unwrap()];
+        assert!((b - coupler).abs() < 1e-9, "{b} {coupler}");
+    }
+}
+
+/// What joins nothing to ground is refused unless it is said to float.
+#[test]
+fn what_floats_must_say_so() {
+    let file = |more: &str| {
+        format!(
+            r#"Axes(version: 1, name: "pendulum", joints: {{
+                "a": Revolute(point: (0, 0, 0), direction: (0, 0, 1), between: ("hull", "arm")),
+                "b": Revolute(point: (1, 0, 0), direction: (0, 1, 0), between: ("arm", "hand")), {more}
+            }})"#
+        )
+    };
+    let lost = Description::read(&file("")).unwrap_err();
+    let help = lost[0].kind.help().unwrap();
+    assert!(help.contains(r#"`Free(between: ("ground", "body"))`"#), "{help}");
+    let floats = file(r#""f": Free(between: ("ground", "hull")),"#);
+    let mechanism = Mechanism::new(&Description::read(&floats).unwrap()).unwrap();
+    let report = ask::Question::new(mechanism).mobility(&Watch::none());
+    assert_eq!(report.unwrap().closed().unwrap().mobility, 8);
+}

@@ -587,7 +587,7 @@ fn bad_coordinates_are_refused_at_their_place_with_the_remedy() {
                 "\"a\": Revolute(point: (0, 0, 0), direction: (0, 0, 1), between: (\"c\", \"b\")),",
                 "",
             ),
-            "f:2:1: no joint connects anything with `ground` (the fixed body is called `ground`)",
+            "f:2:1: no joint connects anything with `ground` (the fixed body is called `ground`; one that floats has `Free(between: (\"ground\", \"body\"))`)",
         ),
         (
             file(
@@ -596,7 +596,7 @@ fn bad_coordinates_are_refused_at_their_place_with_the_remedy() {
                 ),
                 "",
             ),
-            "f:3:1: no joints connect the body `c` with `ground`",
+            "f:3:1: no joints connect the body `c` with `ground` (if it floats, add a joint `Free(between: (\"ground\", \"c\"))`)",
         ),
         (
             file(two, "cut: [\"aa\"]"),

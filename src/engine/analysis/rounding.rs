@@ -324,6 +324,8 @@ impl RoundedDirections<'_> {
         /// A condition counts that is larger than what is left, by this factor; a tenth of the last that counted at first.
         const TOLD_APART: f64 = 30.0;
         const LEAST: f64 = 1e-9;
+        /// Steps taken although they may lead away.
+        const AHEAD: usize = 4;
         let mut at = Bundled {
             numbers: file.to_vec(),
             configurations: configurations.to_vec(),
@@ -341,8 +343,20 @@ impl RoundedDirections<'_> {
         for _ in 0..ROUNDS {
             let nearest = nearest.clone().redundant(self.rank, cut);
             let end = search.solve(&nearest, at);
-            let left = end.misfit.equations.sqrt();
+            let mut left = end.misfit.equations.sqrt();
             at = end.point;
+            // a step along what is badly conditioned opens what is not, and the steps after it close that
+            let mut ahead = at.clone();
+            for _ in 0..AHEAD {
+                if left < SOLVED {
+                    break;
+                }
+                ahead = nearest.stepped(&ahead, &nearest.model(&ahead)?, 0.0).0;
+                let open = nearest.misfit(&ahead).equations.sqrt();
+                if open < left {
+                    (left, at) = (open, ahead.clone());
+                }
+            }
             if left < SOLVED {
                 let change = self.bundle.departures(&at.numbers, file);
                 let rows = nearest.model(&at)?.rows();

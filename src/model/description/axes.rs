@@ -78,6 +78,8 @@ words! {
         Fixed = "Fixed",
         /// A rod with a ball at each end. It is always cut.
         Distance = "Distance",
+        /// Any motion: a body that nothing else holds to ground floats. It is always cut, without a closure.
+        Free = "Free",
     }
 }
 
@@ -135,12 +137,12 @@ impl AxesDescription {
 }
 
 impl AxisKind {
-    /// The closure that restores such a joint; none for a screw, which cannot be cut.
+    /// The closure that restores such a joint; none for a screw, which cannot be cut, and for a body that floats.
     pub fn closure(self) -> Option<ClosureKind> {
         Some(match self {
             Self::Revolute => ClosureKind::Revolute,
             Self::Prismatic => ClosureKind::Prismatic,
-            Self::Helical => return None,
+            Self::Helical | Self::Free => return None,
             Self::Cylindrical => ClosureKind::Cylindrical,
             Self::Universal => ClosureKind::Universal,
             Self::Spherical => ClosureKind::Spherical,
@@ -170,7 +172,10 @@ impl AxisKind {
 
     /// True if the joint is always cut, as a closure.
     pub fn always_cut(self) -> bool {
-        matches!(self, Self::Spherical | Self::Planar | Self::Distance)
+        matches!(
+            self,
+            Self::Spherical | Self::Planar | Self::Distance | Self::Free
+        )
     }
 }
 
@@ -196,6 +201,12 @@ impl AxisDescription {
     pub fn values(&self) -> impl Iterator<Item = &Entry> {
         let limits = self.limits.iter().flat_map(|(low, high)| [low, high]);
         self.home.iter().chain(&self.drawn).chain(limits)
+    }
+
+    /// True for a joint that is nowhere.
+    pub fn has_no_place(&self) -> bool {
+        matches!(self.kind, AxisKind::Fixed | AxisKind::Free)
+            && self.place == AxisPlace::Frame(Vec::new())
     }
 
     /// The value of its variable in the drawing.

@@ -234,8 +234,7 @@ impl AxisPlace {
 impl Serialize for AxisDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = WrittenFields::named(serializer, self.kind.word())?;
-        // a fixed joint may be anywhere
-        if self.kind != AxisKind::Fixed || self.place != AxisPlace::Frame(Vec::new()) {
+        if !self.has_no_place() {
             self.place.write_fields("point", &mut fields)?;
         }
         if let Some(second) = &self.second {

@@ -96,7 +96,7 @@ impl Unit {
     /// The dimension of a number with this unit.
     pub fn measure(self) -> Measure {
         match self {
-            Self::Degree | Self::Radian => Measure::Angle,
+            Self::Degree | Self::Radian | Self::Revolution => Measure::Angle,
             Self::Millimetre | Self::Centimetre | Self::Metre | Self::Inch => Measure::Length,
             Self::Newton | Self::Kilonewton | Self::PoundForce => Measure::Force,
             Self::Kilogram | Self::Gram | Self::Pound => Measure::Other(SiUnit::KILOGRAM),

@@ -40,6 +40,8 @@ words! {
         Megapascal = "MPa",
         /// Bar, 100000 Pa.
         Bar = "bar",
+        /// Turn, 2π rad.
+        Revolution = "rev",
         /// Turn per minute, π/30 rad/s.
         TurnPerMinute = "rpm",
     }
@@ -90,6 +92,7 @@ impl Unit {
             Self::Bar => value * 1e5,
             Self::Pound => value * 0.453_592_37,
             Self::PoundForce => value * 4.448_221_615_260_5,
+            Self::Revolution => value * std::f64::consts::TAU,
             Self::TurnPerMinute => value * std::f64::consts::PI / 30.0,
             Self::Centimetre => value / 100.0,
             Self::Inch => value * 254.0 / 10000.0,

@@ -31,6 +31,11 @@ impl Svd {
     }
 
     fn of_parts(rows: usize, columns: usize, entries: &[f64]) -> Self {
+        // what rounding leaves where nothing is would join parts that share nothing
+        let largest = entries.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let nothing = |x: &f64| x.abs() <= f64::EPSILON * largest;
+        let entries = entries.iter().map(|x| if nothing(x) { 0.0 } else { *x });
+        let entries = &entries.collect::<Vec<f64>>();
         let column = |j: usize| &entries[j * rows..(j + 1) * rows];
         let parts = Parts::new(rows, (0..columns).map(column));
         let mut of: Vec<Vec<usize>> = vec![Vec::new(); parts.members().len()];

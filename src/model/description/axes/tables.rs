@@ -163,9 +163,11 @@ impl Tables<'_> {
         let (graph, axes, cuts) = (self.graph, self.axes, self.cuts);
         let asked = |body: usize| {
             let name = &graph.bodies[body].value;
+            let mut joints = graph.joints_of(body);
             axes.points
                 .iter()
                 .any(|point| point.value.body.value == *name)
+                || joints.any(|joint| axes.joints[joint].value.kind == AxisKind::Free)
         };
         let is_cut = |joint: usize| cuts.contains(&joint);
         while let Some(root) = graph.next_platform(is_cut, |b| self.bodies[b].is_some(), asked) {
@@ -252,7 +254,8 @@ impl Tables<'_> {
     }
 
     fn first_point(&self, body: usize) -> Vec<Displacement> {
-        let Some(joint) = self.graph.joints_of(body).next() else {
+        let placed = |&joint: &usize| !self.axes.joints[joint].value.has_no_place();
+        let Some(joint) = self.graph.joints_of(body).find(placed) else {
             return Vec::new();
         };
         let side = usize::from(self.graph.ends[joint][1] == body);
@@ -274,7 +277,9 @@ impl Tables<'_> {
         };
         match (place, joint.kind) {
             (AxisPlace::Through(first, second), AxisKind::Distance) => at([first, second][side]),
-            (AxisPlace::Frame(steps), AxisKind::Fixed) if steps.is_empty() => otherwise.to_vec(),
+            (AxisPlace::Frame(steps), AxisKind::Fixed | AxisKind::Free) if steps.is_empty() => {
+                otherwise.to_vec()
+            }
             _ => frame_of(place, axis, otherwise),
         }
     }

@@ -21,6 +21,7 @@ impl AxisKind {
             Self::Planar => form!("a planar joint", AXIS, CUT),
             Self::Fixed => form!("a fixed joint", &["frame"], CUT),
             Self::Distance => form!("a rod", &["through", "length"], ROD),
+            Self::Free => form!("a free joint", &["between"]),
         };
         let word = self.word();
         FieldGroup { word, form }
@@ -113,7 +114,7 @@ impl FileReader {
         if let Some(frame) = fields.take("frame") {
             return Some(AxisPlace::Frame(self.transform(frame)));
         }
-        if kind == AxisKind::Fixed {
+        if matches!(kind, AxisKind::Fixed | AxisKind::Free) {
             return Some(AxisPlace::Frame(Vec::new()));
         }
         if kind == AxisKind::Distance || fields.gives(&["through"]) {

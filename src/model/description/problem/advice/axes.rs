@@ -12,7 +12,10 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
             "write `between: (\"body\", \"body\")` in all joints or in none".into()
         }
         OneBody { .. } => "name the two bodies that it connects".into(),
-        NoGround => format!("the fixed body is called `{GROUND}`"),
+        NoGround => format!("the fixed body is called `{GROUND}`; one that floats has `Free(between: (\"{GROUND}\", \"body\"))`"),
+        NotConnected { body } => {
+            format!("if it floats, add a joint `Free(between: (\"{GROUND}\", \"{body}\"))`")
+        }
         UnknownCut {
             suggestion: Some(meant),
             ..
