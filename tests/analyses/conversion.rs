@@ -496,7 +496,10 @@ fn what_floats_must_say_so() {
     };
     let lost = Description::read(&file("")).unwrap_err();
     let help = lost[0].kind.help().unwrap();
-    assert!(help.contains(r#"`Free(between: ("ground", "body"))`"#), "{help}");
+    assert!(
+        help.contains(r#"`Free(between: ("ground", "body"))`"#),
+        "{help}"
+    );
     let floats = file(r#""f": Free(between: ("ground", "hull")),"#);
     let mechanism = Mechanism::new(&Description::read(&floats).unwrap()).unwrap();
     let report = ask::Question::new(mechanism).mobility(&Watch::none());
