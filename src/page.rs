@@ -6,6 +6,7 @@
 
 #[cfg(target_arch = "wasm32")]
 mod abi;
+mod design;
 mod grip;
 mod live;
 mod motion;
@@ -41,6 +42,8 @@ pub struct Page {
     mechanism: Option<Arc<Mechanism>>,
     /// The mechanism in its configuration; none if it does not assemble.
     steering: Option<Steering>,
+    /// Its file, with the parameters that were set.
+    description: Option<Description>,
     load: Option<Press>,
     /// The quantities that are read.
     watched: String,
@@ -64,6 +67,7 @@ impl Page {
             Ok(Request::Ask { what, as_filed }) => self.ask(what, as_filed, &Watch::none()),
             Ok(Request::Sweep(sweep)) => self.sweep(&sweep, &Watch::none()),
             Ok(Request::LetGo(asked)) => self.let_go(&asked, &Watch::none()),
+            Ok(Request::Design(asked)) => self.design(&asked, &Watch::none()),
             Ok(request) => self.reply(request).map(|reply| reply.to_string()),
             Err(error) => Err(nothing(&error.to_string())),
         };
@@ -153,6 +157,7 @@ impl Page {
             Request::Ask { .. }
             | Request::Sweep(_)
             | Request::LetGo(_)
+            | Request::Design(_)
             | Request::Load(_)
             | Request::Move { .. } => {
                 unreachable!("answered before")
@@ -199,6 +204,7 @@ impl Page {
         self.watch(load.quantities.clone());
         let mut reply = self.frame(why.as_deref());
         reply["mechanism"] = shown::mechanism(&mechanism, &description);
+        self.description = Some(description);
         reply["warnings"] = shown::problems(text, mechanism.warnings()).into();
         Ok(reply)
     }

@@ -82,6 +82,11 @@ fn what_acts_in_a_mechanism_moves_it_in_the_page() {
 }
 
 #[test]
+fn designs_in_the_page_are_those_of_the_program() {
+    browse("design.mjs");
+}
+
+#[test]
 fn mechanisms_are_drawn_in_the_page() {
     browse("drawing.mjs");
 }

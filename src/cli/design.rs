@@ -120,6 +120,7 @@ impl DesignArguments {
             asked,
             seed: self.seed,
             starts: self.starts,
+            own: false,
             approximate: self.approximate,
             solutions: self.solutions,
             most: self.most.max(1),

@@ -61,6 +61,8 @@ pub enum Request {
     Sweep(SweepRequest),
     /// Lets the mechanism go where it is, under its loads.
     LetGo(LetGoRequest),
+    /// Dimensions with which a point passes through places.
+    Design(DesignRequest),
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -149,4 +151,23 @@ pub struct LetGoRequest {
     pub through: bool,
     #[serde(default)]
     pub points: Vec<String>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct DesignRequest {
+    /// A mechanism file; without it the mechanism that is shown.
+    #[serde(default)]
+    pub text: Option<String>,
+    /// The numbers that vary, with their ranges in m or rad; new names are further unknowns.
+    pub vary: Vec<(String, f64, f64)>,
+    /// The point, whose offsets may be such numbers.
+    pub path: String,
+    /// Places in ground, two or three coordinates each.
+    pub points: Vec<Vec<f64>>,
+    pub any_order: bool,
+    pub starts: usize,
+    /// Starts from the dimensions of the file.
+    pub own: bool,
+    /// All solutions, where there are as many targets as unknowns.
+    pub exact: bool,
 }

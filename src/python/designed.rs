@@ -32,6 +32,7 @@ pub fn design<'py>(
         asked: DesignDescription::read(&text).map_err(wrong)?,
         seed,
         starts,
+        own: false,
         approximate,
         solutions,
         most: most.max(1),

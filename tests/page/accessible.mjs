@@ -32,6 +32,9 @@ const tests = {
   async "no rule of axe is broken, light or dark, whatever is open"() {
     const page = await full("mechanisms/four_bar.ron");
     await page.evaluate(() => globalThis.linkwork.press({ point: "left+0.5", force: [0, -5, 0] }));
+    await page.evaluate(() => globalThis.designer.set([[1, 1, 0], [2, 1.5, 0], [3, 1, 0]]));
+    await page.waitForSelector("#designs li", { timeout: 120_000 });
+    await page.waitForSelector("#drive-plot:not([hidden])", { timeout: 60_000 });
     await read(page, "every section open");
     await page.evaluate(() => globalThis.holding.hold("phi1"));
     for (let i = 0; i < 40; i++) await page.evaluate(() => globalThis.linkwork.move("phi1", globalThis.linkwork.frame.values[2][0] + 0.05));

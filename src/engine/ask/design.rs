@@ -35,8 +35,11 @@ pub struct Design {
     pub asked: DesignDescription,
     /// Seed of the search.
     pub seed: u64,
-    /// Random starts at most.
+    /// Starts at most.
     pub starts: usize,
+    /// True if the first start is at the dimensions of the mechanism, so that a design is followed as its targets move; otherwise all
+    /// are random.
+    pub own: bool,
     /// True for a search from random starts where all solutions could be found too.
     pub approximate: bool,
     /// Generic solutions of an exact synthesis at most; where there are more it is searched from random starts.
@@ -52,6 +55,7 @@ impl Default for Design {
             asked: DesignDescription::default(),
             seed: 1,
             starts: 400,
+            own: false,
             approximate: false,
             solutions: 100,
             most: 10,
@@ -245,6 +249,7 @@ impl Design {
             } else {
                 self.starts.max(1)
             },
+            own: self.own,
             again,
         }
     }

@@ -1,6 +1,7 @@
 // The page: everything is put together here.
 import { Vector3 } from "three";
 import { Background } from "./background";
+import { Designer } from "./designer";
 import { Desk } from "./desk";
 import { dragging } from "./drag";
 import { Drive } from "./drive";
@@ -293,6 +294,14 @@ async function begin() {
   model.onLoaded(() => document.body.classList.remove("blank"));
   new Editor(model);
   exporting(model, picture.stage, () => picture.drawing.shapes.group, () => picture.inPlane, () => picture.labels.shown);
+  const designer = new Designer(model, module, picture.stage, {
+    draw: (of) => {
+      picture.scenery.design = of;
+      picture.draw();
+    },
+    look: () => model.frame?.scene.normal && !picture.inPlane && picture.look("plane"),
+    room: (scenes) => picture.room(scenes),
+  });
   dragging(picture.stage, model, load, (point) => motion.take(point));
   const share = button("Copy link", async () => {
     location.hash = await link.written(model.file, model.place());
@@ -323,7 +332,7 @@ async function begin() {
   if (given.watch) watching(model);
   requestAnimationFrame(() => performance.mark("picture"));
   // for whoever tests or scripts the page
-  Object.assign(globalThis, { linkwork: model, picture, holding, desk, modes, motion, drive });
+  Object.assign(globalThis, { linkwork: model, picture, holding, desk, modes, motion, drive, designer });
   document.documentElement.dataset.ready = "true";
 }
 

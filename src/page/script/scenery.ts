@@ -1,5 +1,6 @@
 // What stands beside the mechanism: ghosts of other assemblies, the paths of points, forces, freedoms gained.
 import { Vector3 } from "three";
+import type { Drawn } from "./designer";
 import { Arrows, type Note, screw, type Words } from "./arrows";
 import type { Trace } from "./motion";
 import { Shapes } from "./shapes";
@@ -16,6 +17,8 @@ export class Scenery {
   screws: Screw[] = [];
   /** The mechanism moved about the screws. */
   swung: Scene[] = [];
+  /** A design beside the mechanism. */
+  design: Drawn = { points: [], curve: [], ghost: null };
   readonly arrows = new Arrows();
   /** The arrow that shows which way things fall. */
   falling: [Vector3, Vector3] | null = null;
@@ -35,6 +38,13 @@ export class Scenery {
       shapes.arrow(...(this.falling.map(raised) as [Vector3, Vector3]), 0.2 * size, theme().acts);
       this.notes.push({ words: "g", at: this.falling[1] });
     }
+    const { points, curve, ghost } = this.design;
+    if (ghost) this.ghost(ghost, size, theme().ghost);
+    this.curve(curve, size);
+    points.forEach((at, i) => {
+      shapes.ball(raised(v(at)), 0.6 * size, theme().trace);
+      this.notes.push({ words: String(i + 1), at: v(at) });
+    });
     for (const trace of this.traces) {
       this.curve(trace.points, size);
       for (const { at, words } of trace.marks) {

@@ -94,3 +94,22 @@ export function loop(kinds: string, axes: string): string {
   const more = { parallel: [], "through one point": [`"apex": "150 mm",`], skew: [`"twist": "50 deg",`] }[axes] ?? [];
   return file(`Loop ${kinds}`, [`"r": "100 mm",`, ...more], joints);
 }
+
+/** A four-bar anywhere in the plane, for a path of its coupler. */
+export const FOUR_BAR = `Mechanism(
+    version: 1,
+    name: "Four-bar for a path",
+    convention: Modified,
+    parameters: { "ax": 0, "ay": 0, "bx": 0.3, "by": 0, "l1": 0.1, "l2": 0.3, "l3": 0.2 },
+    joints: { "theta1": Actuated(home: "60 deg"), "phi2": Passive(home: "-39 deg"), "phi1": Passive(home: "104 deg") },
+    chains: {
+        "left": Chain(
+            base: [Tx("ax"), Ty("ay")],
+            rows: [(theta: "theta1", link: "crank"), (a: "l1", theta: "phi2", link: "coupler")],
+            tip: [Tx("l2")],
+        ),
+        "right": Chain(base: [Tx("bx"), Ty("by")], rows: [(theta: "phi1", link: "rocker")], tip: [Tx("l3")]),
+    },
+    closures: { "B": Revolute("left", "right") },
+)
+`;

@@ -5,8 +5,8 @@ import { hull } from "./hull";
 import { bodyColour, theme } from "./theme";
 import type { Scene, Triple } from "./types";
 
-/** Links as lines, in the plane of the mechanism or isometric. */
-export function thumbnail(canvas: HTMLCanvasElement, scene: Scene) {
+/** Links as lines, in the plane of the mechanism or isometric, with the curve of a point and the places that it shall pass. */
+export function thumbnail(canvas: HTMLCanvasElement, scene: Scene, curve: Triple[] = [], places: Triple[] = []) {
   const pen = canvas.getContext("2d");
   if (!pen) return;
   const plane = planeOf(scene);
@@ -25,9 +25,11 @@ export function thumbnail(canvas: HTMLCanvasElement, scene: Scene) {
       return [...body.lines.map((line) => line.map(seen)), ...outline].map((line) => ({ line, colour }));
     }),
     ...scene.rods.map((rod) => ({ line: rod.ends.map(seen), colour: theme().ink })),
+    ...(curve.length ? [{ line: curve.map(seen), colour: theme().trace }] : []),
   ];
   const joints = scene.joints.map((joint) => seen(joint.at));
-  const all = [...lines.flatMap(({ line }) => line), ...joints];
+  const passed = places.map(seen);
+  const all = [...lines.flatMap(({ line }) => line), ...joints, ...passed];
   if (!all.length) return;
   const [xs, ys] = [all.map(([x]) => x), all.map(([, y]) => y)];
   const [left, bottom] = [Math.min(...xs), Math.min(...ys)];
@@ -44,17 +46,20 @@ export function thumbnail(canvas: HTMLCanvasElement, scene: Scene) {
     pen.beginPath();
     line.forEach((point, i) => (i ? pen.lineTo(...place(point)) : pen.moveTo(...place(point))));
     pen.globalAlpha = 0.25;
-    if (line.length > 3 && line[0] === line.at(-1)) pen.fill();
+    if (line.length > 3 && colour !== theme().trace && line[0] === line.at(-1)) pen.fill();
     pen.globalAlpha = 1;
     pen.stroke();
   }
   pen.fillStyle = theme().joint;
   pen.strokeStyle = theme().ink;
   pen.lineWidth = 2;
-  for (const joint of joints) {
+  const dots = (of: [number, number][], radius: number) => of.forEach((at) => {
     pen.beginPath();
-    pen.arc(...place(joint), 6, 0, 2 * Math.PI);
+    pen.arc(...place(at), radius, 0, 2 * Math.PI);
     pen.fill();
     pen.stroke();
-  }
+  });
+  dots(joints, 6);
+  pen.fillStyle = theme().trace;
+  dots(passed, 3);
 }

@@ -224,6 +224,26 @@ export interface LetGo {
   states: Row[];
 }
 
+/** A design: its file, and how it is shown. */
+export interface Design {
+  file: string;
+  sum_of_squares: number;
+  defects: unknown[];
+  scene: Scene | null;
+  /** Of its point. */
+  curve: Triple[];
+  verdict: string;
+  /** The largest deviation in words. */
+  largest: string;
+}
+
+export interface Designs {
+  /** How they were found, in sentences. */
+  how: string[];
+  report: { sentence: string; exact?: unknown; designs: Pick<Design, "file" | "sum_of_squares" | "defects">[] };
+  states: Omit<Design, "file" | "sum_of_squares" | "defects">[];
+}
+
 export interface Swept {
   report: {
     sentence: string;
@@ -255,7 +275,8 @@ export type Request =
   | { do: "picture"; from?: [number, number] | null; labels?: boolean }
   | { do: "ask"; what: "solve" | "assemblies" | "mobility"; as_filed?: boolean }
   | { do: "sweep"; input?: [string, number, number]; steps: number; follow?: boolean; duration?: number; points?: string[]; report?: string[] }
-  | { do: "let_go"; duration: number; rows: number; restitution: number | null; through: boolean; points: string[] };
+  | { do: "let_go"; duration: number; rows: number; restitution: number | null; through: boolean; points: string[] }
+  | { do: "design"; text: string | null; vary: [string, number, number][]; path: string; points: number[][]; any_order: boolean; starts: number; own: boolean; exact: boolean };
 
 /** Why there is no answer. */
 export class Refused extends Error {

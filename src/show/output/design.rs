@@ -26,7 +26,8 @@ fn figure(report: &DesignReport) -> Option<&String> {
     report.goal.as_ref().map(|goal| &goal.figure)
 }
 
-fn verdict(report: &DesignReport, design: &Design) -> String {
+/// The defects of a design, or how it moves without.
+pub fn verdict(report: &DesignReport, design: &Design) -> String {
     let driver = report.driver.as_deref().unwrap_or_default();
     match design.driver {
         _ if !design.defects.is_empty() => defects(&design.defects),
@@ -37,7 +38,7 @@ fn verdict(report: &DesignReport, design: &Design) -> String {
 }
 
 /// The largest deviation of each unit, and where it is.
-fn largest(design: &Design) -> String {
+pub fn largest(design: &Design) -> String {
     let mut largest: Vec<&Deviation> = Vec::new();
     for of in &design.deviations {
         match largest.iter_mut().find(|known| known.unit == of.unit) {

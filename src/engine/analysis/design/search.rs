@@ -32,8 +32,10 @@ pub struct Task<'m> {
     pub free_driver: Option<usize>,
     /// Seed of everything random.
     pub seed: u64,
-    /// Random starts at most.
+    /// Starts at most.
     pub starts: usize,
+    /// True if the first start is at the dimensions of the file, not random ones.
+    pub own: bool,
     /// Starts that lead to the least sum of squares after which the search ends.
     pub again: usize,
 }
@@ -183,7 +185,7 @@ impl Task<'_> {
             if watch.is_stopped() {
                 return (failed, None);
             }
-            match self.start(&mut rng) {
+            match self.start(self.own && number == 0, &mut rng) {
                 None => failed += 1,
                 Some(start) => {
                     count += 1;
@@ -250,10 +252,13 @@ impl Task<'_> {
         at
     }
 
-    fn start(&self, rng: &mut Pcg64) -> Option<Bundled> {
+    fn start(&self, own: bool, rng: &mut Pcg64) -> Option<Bundled> {
         /// Random configurations from which the first position is closed at most.
         const FIRST: usize = 5;
-        let numbers = self.numbers(rng);
+        let numbers = match own {
+            true => self.bundle.file(),
+            false => self.numbers(rng),
+        };
         let configurations = match (self.ranges.is_empty(), self.free_driver) {
             (true, _) => self.each_alone(&numbers, rng),
             (false, Some(driver)) => self.along(driver, &numbers, rng),
