@@ -17,6 +17,7 @@ mod enclosure;
 mod equations;
 mod equilibrium;
 mod joint_space;
+mod lanes;
 mod loaded;
 mod question;
 mod record;
@@ -48,6 +49,7 @@ pub(crate) use equations::{ConstantsCourse, solve};
 pub use equilibrium::Equilibrium;
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
+pub(crate) use lanes::{LaneNumbers, LaneProgram, Mask, assign, bits, choose};
 pub use loaded::{Acting, Loaded, Moving};
 pub use question::{
     Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Role, Still,

@@ -125,7 +125,7 @@ pub fn solver(
         .collect()
     };
     let variables = [plan.inputs.clone(), plan.state.clone()].concat();
-    let curvature = plan.curvature(&operations, &written.slopes, &variables, &start);
+    let curvature = plan.curvature(&operations, &written.slopes.concat(), &variables, &start);
     Ok(Solver {
         curvature: curvature.largest,
         weights: curvature.weights,

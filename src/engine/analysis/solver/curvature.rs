@@ -26,14 +26,14 @@ impl VariablePlan<'_> {
     pub(super) fn curvature(
         &self,
         operations: &[Operation],
-        jacobian: &[Vec<Place>],
+        jacobian: &[Place],
         variables: &[StateVariable],
         start: &[f64],
     ) -> Curvature {
         /// Configurations at which the change is computed.
         const SAMPLES: usize = 24;
         let length = self.mechanism.characteristic_length();
-        let last = jacobian.iter().flatten().max().map_or(0, |place| place + 1);
+        let last = jacobian.iter().max().map_or(0, |place| place + 1);
         let operations = &operations[..last as usize];
         let used = used(operations, jacobian, variables.len());
         let weight = |variable: &StateVariable| match *variable {
@@ -46,7 +46,7 @@ impl VariablePlan<'_> {
             .collect();
         let entries = |at: &[f64]| -> Vec<f64> {
             let values = evaluate(operations, at);
-            let entries = jacobian.iter().flatten();
+            let entries = jacobian.iter();
             entries.map(|&place| values[place as usize]).collect()
         };
         let mut rng = Pcg64Mcg::seed_from_u64(1);
@@ -113,10 +113,10 @@ impl VariablePlan<'_> {
 }
 
 /// For each of the first inputs of the operations, true if some place depends on it.
-fn used(operations: &[Operation], places: &[Vec<Place>], inputs: usize) -> Vec<bool> {
+fn used(operations: &[Operation], places: &[Place], inputs: usize) -> Vec<bool> {
     let mut needed = vec![false; operations.len()];
     let mut used = vec![false; inputs];
-    for &place in places.iter().flatten() {
+    for &place in places {
         needed[place as usize] = true;
     }
     for (place, operation) in operations.iter().enumerate().rev() {

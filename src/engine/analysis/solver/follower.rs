@@ -9,12 +9,12 @@ mod recording;
 
 use super::curvature::Curvature;
 use super::{NoSolver, StateVariable, VariablePlan};
-use crate::algebra::{BATCH, Batch, Place, Registers, record};
+use crate::algebra::{BATCH, Registers, record};
 use crate::mechanism::Configuration;
 use crate::number::widest;
-use crate::system::{Coordinate, Question};
+use crate::system::{Coordinate, LaneProgram, Mask, Question, assign, bits};
 use certain::{Certain, LaneJacobians};
-use past::{Mask, Past};
+use past::Past;
 
 /// Settings of a follower.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,49 +47,30 @@ pub struct Follower<'a> {
     changing: Vec<usize>,
     /// The values of all inputs at the start.
     inputs: Vec<f64>,
-    /// Numbers of the state that are iterated; the others follow from them.
-    free: Vec<usize>,
-    program: Batch,
-    results: Results,
+    program: LaneProgram,
+    /// Registers of the numbers of the state that are iterated, each with that of its value after a step.
+    moved: Vec<(usize, usize)>,
+    /// Registers of the numbers of the state that follow from these, each with that of its new value.
+    placed: Vec<(usize, usize)>,
+    /// The number of unknowns of a step.
+    unknowns: usize,
     /// Factors that make changes of the changing inputs, then of the state, dimensionless, and the rate of the
     /// Jacobian.
     curvature: Curvature,
 }
 
-/// The sections of the program, after the one for what depends on held values alone.
-#[derive(Clone, Copy, Debug)]
-enum FollowerSection {
-    /// The sum of the squares of all rows.
-    Rows = 1,
-    /// The step, and the state moved by it.
-    Step = 2,
-    /// The numbers that follow from the state.
-    Reached = 3,
-    /// The Jacobian and its inverse.
-    Jacobian = 4,
-}
-
-/// Registers of the results of the program.
-#[derive(Clone, Debug)]
-struct Results<T = usize> {
-    /// The sum of the squares of all rows.
-    size: T,
-    /// More than 1 if a step is too long or a pivot small.
-    doubt: T,
-    /// The free numbers of the state, moved by the step.
-    moved: Vec<T>,
-    /// The numbers of the state that are not free, by their places.
-    placed: Vec<(usize, T)>,
-    /// More than 1 if their divisor is small.
-    placing: T,
-    /// All coordinates.
-    columns: Vec<T>,
-    /// Numbers on whose sign these rest, and true for negative ones.
-    decided: Vec<(T, bool)>,
-    /// The Jacobian row by row, and its left inverse row by row; none of many unknowns.
-    jacobian: Vec<Vec<T>>,
-    inverse: Vec<Vec<T>>,
-}
+/// The section of the sum of the squares of all rows.
+const ROWS: usize = 1;
+/// The section of the free numbers of the state moved by a step, and of a number of more than 1 if that is too long or a
+/// pivot small.
+const STEP: usize = 2;
+/// The section of a number of more than 1 where the numbers that follow from the state divide by a small one, of these
+/// numbers, and of all coordinates.
+const REACHED: usize = 3;
+/// The section of the Jacobian, row by row.
+const JACOBIAN: usize = 4;
+/// The section of its left inverse, row by row; empty for many unknowns.
+const INVERSE: usize = 5;
 
 /// The latest solutions of [`BATCH`] motions.
 #[derive(Clone, Debug)]
@@ -127,59 +108,29 @@ impl<'a> Follower<'a> {
         let (inputs, state) = plan.values(at);
         let mut sample: Vec<f64> = changing.iter().map(|&i| inputs[i]).collect();
         sample.extend(&state);
-        let count = sample.len();
         let (written, operations) = record(sample.clone(), || {
             plan.recorded(&changing, &inputs, settings.longest_step)
         });
         let written = written?;
-        let mut sections = [
-            Vec::new(),
-            vec![written.size],
-            written.moved.clone(),
-            Vec::new(),
-            [written.jacobian.concat(), written.inverse.concat()].concat(),
-        ];
-        sections[FollowerSection::Step as usize].push(written.doubt);
-        let reached = &mut sections[FollowerSection::Reached as usize];
-        reached.push(written.placing);
-        reached.extend(written.placed.iter().map(|(_, place)| *place));
-        reached.extend(&written.columns);
-        reached.extend(written.decided.iter().map(|(place, _)| *place));
-        sections[0] = Batch::known(&operations, changing.len(), &sections.concat());
-        let program = Batch::new(&operations, count, &sections);
+        let (count, known) = (sample.len(), changing.len());
+        let decisions = (&written.decisions[..], REACHED);
+        let program = LaneProgram::new(&operations, (count, known), &written.sections, decisions);
         let inputs_of = changing.iter().map(|&i| plan.inputs[i]);
         let variables: Vec<StateVariable> = inputs_of.chain(plan.state.iter().copied()).collect();
-        let curvature = plan.curvature(&operations, &written.jacobian, &variables, &sample);
-        let at = |place: Place| program.result(place);
-        let all = |of: &[Vec<Place>]| -> Vec<Vec<usize>> {
-            let row = |row: &Vec<Place>| row.iter().map(|&place| at(place)).collect();
-            of.iter().map(row).collect()
-        };
-        let results = Results {
-            size: at(written.size),
-            doubt: at(written.doubt),
-            moved: written.moved.iter().map(|&place| at(place)).collect(),
-            placed: (written.placed.iter())
-                .map(|&(i, place)| (i, at(place)))
-                .collect(),
-            placing: at(written.placing),
-            columns: written.columns.iter().map(|&place| at(place)).collect(),
-            decided: (written.decided.iter())
-                .map(|&(place, negative)| (at(place), negative))
-                .collect(),
-            jacobian: all(&written.jacobian),
-            inverse: all(&written.inverse),
-        };
-        let placed = |i: &usize| written.placed.iter().any(|(of, _)| of == i);
-        let free = (0..plan.state.len()).filter(|i| !placed(i)).collect();
+        let jacobian = &written.sections[JACOBIAN];
+        let curvature = plan.curvature(&operations, jacobian, &variables, &sample);
+        let (placed, moved): (Vec<usize>, Vec<usize>) =
+            (known..count).partition(|register| written.placed.contains(&(register - known)));
+        let results = |section: usize| program.results(section).iter().copied();
         Ok(Follower {
+            moved: moved.into_iter().zip(results(STEP)).collect(),
+            placed: placed.into_iter().zip(results(REACHED).skip(1)).collect(),
+            unknowns: written.unknowns,
             plan,
             settings,
             changing,
             inputs,
-            free,
             program,
-            results,
             curvature,
         })
     }
@@ -188,9 +139,10 @@ impl<'a> Follower<'a> {
     pub fn motions(&self, at: &Configuration<f64>) -> Motions {
         let registers = self.program.registers();
         let numbers = 0..self.curvature.weights.len();
+        let jacobian = self.program.results(JACOBIAN).len();
         let mut motions = Motions {
-            past: Past::none(&self.state(self.free.iter().copied()), &registers),
-            certain: Certain::none(numbers.zip(&self.curvature.weights), &self.results.jacobian),
+            past: Past::none(self.moved.iter().map(|(register, _)| *register), &registers),
+            certain: Certain::none(numbers.zip(&self.curvature.weights), jacobian),
             registers,
         };
         (0..BATCH).for_each(|motion| self.set(&mut motions, motion, at));
@@ -203,25 +155,20 @@ impl<'a> Follower<'a> {
         let Motions {
             registers, certain, ..
         } = motions;
-        self.program.run(0, registers);
-        self.program.run(FollowerSection::Rows as usize, registers);
-        self.program
-            .run(FollowerSection::Jacobian as usize, registers);
-        let now = self.jacobians(registers);
-        certain.keep(which, &now, self.curvature.largest, registers);
+        (LaneProgram::KNOWN..=ROWS).for_each(|section| self.program.run(section, registers));
+        certain.keep(which, &self.jacobians(registers), registers);
     }
 
-    fn jacobians<'r>(&'r self, registers: &'r Registers) -> LaneJacobians<'r> {
+    /// The Jacobians where the motions are.
+    fn jacobians<'f>(&'f self, registers: &mut Registers) -> LaneJacobians<'f> {
+        self.program.run(JACOBIAN, registers);
+        self.program.run(INVERSE, registers);
         LaneJacobians {
-            jacobian: &self.results.jacobian,
-            inverse: &self.results.inverse,
-            registers,
+            jacobian: self.program.results(JACOBIAN),
+            inverse: self.program.results(INVERSE),
+            unknowns: self.unknowns,
+            curvature: self.curvature.largest,
         }
-    }
-
-    /// The registers of numbers of the state.
-    fn state(&self, numbers: impl Iterator<Item = usize>) -> Vec<usize> {
-        numbers.map(|i| self.changing.len() + i).collect()
     }
 
     /// Puts a motion at a configuration, and forgets where it came from.
@@ -254,55 +201,36 @@ impl<'a> Follower<'a> {
             past,
             certain,
         } = motions;
-        let Results {
-            size,
-            doubt,
-            moved,
-            placed,
-            placing,
-            decided,
-            ..
-        } = &self.results;
         let square = self.settings.tolerance.powi(2);
-        self.program.run(0, registers);
-        let (mut open, mut solved) = (going.map(bits), [0; BATCH]);
-        predict(past, &open, registers);
-        let mut last = [f64::INFINITY; BATCH];
-        for step in 0..=self.settings.most_steps {
-            self.program.run(FollowerSection::Rows as usize, registers);
-            let size = registers.rows(*size);
-            settle(&mut open, &mut solved, size, &mut last, square);
-            if step == self.settings.most_steps || open == [0; BATCH] {
-                break;
+        let (going, most) = (going.map(bits), self.settings.most_steps);
+        predict(past, &going, registers);
+        let (mut solved, mut last) = ([0; BATCH], [f64::INFINITY; BATCH]);
+        let judge = |section: usize, open: &mut Mask, registers: &Registers| {
+            let results = self.program.results(section);
+            let told = registers.rows(results[results.len() - 1]);
+            match section {
+                ROWS => settle(open, &mut solved, told, &mut last, square),
+                _ => trust(open, told),
             }
-            self.program.run(FollowerSection::Step as usize, registers);
-            trust(&mut open, registers.rows(*doubt));
-            let free = self.free.iter().map(|i| self.changing.len() + i);
-            free.zip(moved)
-                .for_each(|(to, &from)| assign(to, from, &open, registers));
-        }
-        self.program
-            .run(FollowerSection::Reached as usize, registers);
+        };
+        let (sections, open) = ([ROWS, STEP], (going, most));
+        (self.program).newton(sections, &self.moved, open, registers, judge);
+        self.program.run(REACHED, registers);
         // after that section: what it needs is no longer kept for the next
         let far = certain.beyond(&solved, past, registers);
         if far != [0; BATCH] {
-            self.program
-                .run(FollowerSection::Jacobian as usize, registers);
             let now = self.jacobians(registers);
-            let sure = certain.sure(&far, &now, self.curvature.largest, registers);
-            certain.keep(&sure, &now, self.curvature.largest, registers);
+            let sure = certain.sure(&far, &now, registers);
+            certain.keep(&sure, &now, registers);
             (0..BATCH).for_each(|i| solved[i] &= !far[i] | sure[i]);
         }
-        trust(&mut solved, registers.rows(*placing));
-        for &(register, negative) in decided {
-            agree(&mut solved, registers.rows(register), negative);
-        }
-        for &(i, from) in placed {
-            assign(self.changing.len() + i, from, &solved, registers);
-        }
+        let placing = self.program.results(REACHED)[0];
+        trust(&mut solved, registers.rows(placing));
+        self.program.holds(&mut solved, registers);
+        assign(&self.placed, &solved, registers);
         learn(past, &solved, registers);
         for motion in 0..BATCH {
-            if going[motion] && solved[motion] == 0 {
+            if going[motion] & !solved[motion] != 0 {
                 past.restore(motion, registers);
                 past.forget(motion, registers);
             }
@@ -313,8 +241,10 @@ impl<'a> Follower<'a> {
     /// Values reached by the last [`solve`](Self::solve): all motions' values of each coordinate, in the order of
     /// [`Coordinate::all`], in rad and m.
     pub fn columns<'m>(&self, motions: &'m Motions) -> impl Iterator<Item = &'m [f64; BATCH]> {
-        let columns = self.results.columns.iter();
-        columns.map(|&register| motions.registers.rows(register))
+        let columns = &self.program.results(REACHED)[1 + self.placed.len()..];
+        columns
+            .iter()
+            .map(|&register| motions.registers.rows(register))
     }
 
     /// The latest solution of a motion, found for these values of the coordinates that change.
@@ -328,8 +258,8 @@ impl<'a> Follower<'a> {
         for (&place, &value) in self.changing.iter().zip(values) {
             inputs[place] = value;
         }
-        let state = self.state(0..self.plan.state.len()).into_iter();
-        let state: Vec<f64> = state
+        let first = self.changing.len();
+        let state: Vec<f64> = (first..first + self.plan.state.len())
             .map(|register| motions.registers.rows(register)[motion])
             .collect();
         self.plan.posed(&inputs, &state).1
@@ -345,24 +275,11 @@ widest! {
 }
 
 widest! {
-    fn assign(to: usize, from: usize, motions: &Mask, registers: &mut Registers) runs past::assign
-}
-
-widest! {
     fn settle(open: &mut Mask, solved: &mut Mask, size: &[f64; BATCH], last: &mut [f64; BATCH], square: f64) runs settle_each
 }
 
 widest! {
     fn trust(motions: &mut Mask, doubt: &[f64; BATCH]) runs trust_each
-}
-
-widest! {
-    fn agree(motions: &mut Mask, numbers: &[f64; BATCH], negative: bool) runs agree_each
-}
-
-#[inline(always)]
-fn bits(all: bool) -> u64 {
-    u64::from(all).wrapping_neg()
 }
 
 /// Open motions whose rows are small are solved; those whose rows have not halved are no longer open.
@@ -387,13 +304,5 @@ fn settle_each(
 fn trust_each(motions: &mut Mask, doubt: &[f64; BATCH]) {
     for i in 0..BATCH {
         motions[i] &= bits(doubt[i] <= 1.0);
-    }
-}
-
-/// Leaves those whose numbers have this sign.
-#[inline(always)]
-fn agree_each(motions: &mut Mask, numbers: &[f64; BATCH], negative: bool) {
-    for i in 0..BATCH {
-        motions[i] &= bits((numbers[i] < 0.0) == negative);
     }
 }

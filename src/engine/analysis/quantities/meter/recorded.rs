@@ -5,70 +5,55 @@ use super::block::{MeterBlock, MeterColumn};
 use super::probe::Probe;
 use super::programs::{estimated, is_clear, is_name};
 use super::values::KnownHere;
-use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
+use crate::algebra::{BATCH, Decision, Place, Recorded, Registers, record};
 use crate::mechanism::Configuration;
 use crate::number::{Number, widest};
+use crate::system::{LaneProgram, Mask, bits};
 
 /// The quantities as a program, which holds wherever all that was decided at one row is decided in the same way.
 pub(super) struct Recording {
-    batch: Batch,
+    program: LaneProgram,
     registers: Registers,
-    /// For each quantity the registers of its value and of how far that may be off, and whether the value must be large
-    /// beside that.
-    quantities: Vec<([usize; 2], bool)>,
-    /// Registers of numbers, and true for negative ones.
-    decided: Vec<(usize, bool)>,
-    /// Registers of the entries of a Jacobian, if its figures follow from them row by row.
-    entries: Vec<usize>,
-    /// The register of the first of these figures.
+    /// For each quantity, true if its value must be large beside how far it may be off.
+    clear: Vec<bool>,
+    /// The register of the first of the figures that follow from the entries of a Jacobian row by row.
     figures: usize,
 }
 
-/// The places of a program's results.
-struct ResultPlaces {
-    /// For each quantity those of its value and of how far that may be off, and whether the value must be large beside
-    /// that.
-    quantities: Vec<([Place; 2], bool)>,
-    decisions: Vec<Decision>,
-    entries: Vec<Place>,
-}
+/// The section of the entries of a Jacobian, if its figures follow from them row by row.
+const ENTRIES: usize = 1;
+/// The section of each quantity's value and how far that may be off.
+const VALUES: usize = 2;
 
 impl Recording {
     /// Runs the program for the rows of a block whose numbers are put into the registers; for each, true if it holds.
     fn run(&mut self, block: &mut MeterBlock) -> [bool; BATCH] {
-        self.batch.run(1, &mut self.registers);
-        let mut holds = [true; BATCH];
+        self.program.run(VALUES, &mut self.registers);
+        let mut holds = [u64::MAX; BATCH];
+        self.program.holds(&mut holds, &self.registers);
         told(self, &mut block.columns, &mut holds);
-        holds
+        holds.map(|of| of != 0)
     }
 
-    /// Gives the quantities to columns and says for which rows the program holds.
+    /// Gives the quantities to columns and leaves the rows in which all have values.
     #[inline(always)]
-    fn tell(&self, columns: &mut [MeterColumn], holds: &mut [bool; BATCH]) {
-        // how many conditions do not hold: of the width of the numbers, for vector instructions
-        let mut broken = [0u64; BATCH];
-        for (register, negative) in &self.decided {
-            let rows = self.registers.rows(*register);
-            for (broken, x) in broken.iter_mut().zip(rows) {
-                *broken += u64::from(((*x < 0.0) != *negative) | x.is_nan());
-            }
-        }
-        for (column, ([value, noise], clear)) in columns.iter_mut().zip(&self.quantities) {
-            column.values = *self.registers.rows(*value);
-            let noise = self.registers.rows(*noise);
-            for (i, broken) in broken.iter_mut().enumerate() {
-                let (value, noise) = (column.values[i], noise[i].abs());
+    fn tell(&self, columns: &mut [MeterColumn], holds: &mut Mask) {
+        let values = self.program.results(VALUES).chunks_exact(2);
+        for ((column, of), clear) in columns.iter_mut().zip(values).zip(&self.clear) {
+            let [value, noise] = [0, 1].map(|k| self.registers.rows(of[k]));
+            column.values = *value;
+            for (i, holds) in holds.iter_mut().enumerate() {
+                let (value, noise) = (value[i], noise[i].abs());
                 column.noise[i] = noise;
                 let clear = !clear | is_clear([value, noise]);
-                *broken += u64::from(!value.is_finite() | !clear);
+                *holds &= bits(value.is_finite() & clear);
             }
         }
-        *holds = broken.map(|count| count == 0);
     }
 }
 
 widest! {
-    fn told(recording: &Recording, columns: &mut [MeterColumn], holds: &mut [bool; BATCH]) runs Recording::tell
+    fn told(recording: &Recording, columns: &mut [MeterColumn], holds: &mut Mask) runs Recording::tell
 }
 
 impl Meter<'_> {
@@ -106,28 +91,18 @@ impl Meter<'_> {
         sample.extend(known.iter().map(|(_, value)| value.unwrap_or(f64::NAN)));
         let inputs = sample.len();
         let (written, operations) = record(sample, || self.written(row.configuration));
-        let written = written?;
-        let places = written.quantities.iter().flat_map(|(of, _)| *of);
-        let decided = written.decisions.iter().map(|(place, _)| *place);
-        let all = places.chain(decided).collect();
-        let batch = Batch::new(&operations, inputs, &[written.entries.clone(), all]);
-        let register = |place: Place| batch.result(place);
+        let (sections, decisions) = written?;
+        let program = LaneProgram::new(&operations, (inputs, 0), &sections, (&decisions, VALUES));
         Some(Recording {
-            quantities: (written.quantities.iter())
-                .map(|(of, clear)| (of.map(register), *clear))
-                .collect(),
-            decided: (written.decisions.iter())
-                .map(|(place, negative)| (register(*place), *negative))
-                .collect(),
-            entries: written.entries.into_iter().map(register).collect(),
+            registers: program.registers(),
+            clear: self.programs.iter().map(|of| !is_name(of)).collect(),
             figures: first,
-            registers: batch.registers(),
-            batch,
+            program,
         })
     }
 
-    /// Writes everything.
-    fn written(&self, at: &Configuration<f64>) -> Option<ResultPlaces> {
+    /// Writes everything, section by section.
+    fn written(&self, at: &Configuration<f64>) -> Option<([Vec<Place>; 3], Vec<Decision>)> {
         let mut all = (0..).map(Recorded::input);
         let mut next = || all.next().expect("there is no last one");
         let at = at.map(|_| next());
@@ -171,16 +146,11 @@ impl Meter<'_> {
         let known: Vec<[Recorded; 2]> = names
             .map(|(name, number)| self.value(&both[usize::from(name.geometric)], &name.of, *number))
             .collect();
-        let written = self.programs.iter().map(|program| {
-            let both = estimated(program, &known)?;
-            let both: [Place; 2] = both.map(Recorded::place);
-            Some((both, !is_name(program)))
-        });
-        Some(ResultPlaces {
-            quantities: written.collect::<Option<_>>()?,
-            decisions: Recorded::decisions(),
-            entries,
-        })
+        let mut values = Vec::new();
+        for program in &self.programs {
+            values.extend(estimated(program, &known)?.map(Recorded::place));
+        }
+        Some(([Vec::new(), entries, values], Recorded::decisions()))
     }
 
     /// Reads the rows of a block side by side; for each, true if it could be.
@@ -196,17 +166,21 @@ impl Meter<'_> {
                 registers.rows_mut(input)[i] = x;
             });
         }
-        recording.batch.run(0, &mut recording.registers);
-        if !recording.entries.is_empty() {
+        let Recording {
+            program,
+            registers,
+            figures: first,
+            ..
+        } = &mut recording;
+        (LaneProgram::KNOWN..=ENTRIES).for_each(|section| program.run(section, registers));
+        let entries = program.results(ENTRIES);
+        if !entries.is_empty() {
             let mut jacobian = std::mem::take(&mut self.probe.found.jacobian);
             for i in 0..block.len() {
-                let registers = &mut recording.registers;
-                let entries = recording.entries.iter();
-                jacobian.set_entries(entries.map(|of| registers.rows(*of)[i]));
+                jacobian.set_entries(entries.iter().map(|of| registers.rows(*of)[i]));
                 let figures = self.figures_of(&jacobian).into_iter().flatten();
                 for (k, (_, value)) in figures.enumerate() {
-                    let first = recording.figures;
-                    registers.rows_mut(first + k)[i] = value.unwrap_or(f64::NAN);
+                    registers.rows_mut(*first + k)[i] = value.unwrap_or(f64::NAN);
                 }
             }
             self.probe.found.jacobian = jacobian;

@@ -1,8 +1,8 @@
 //! A test that motions keep to their branches.
 
-use super::past::{LaneNumbers, Mask, Past};
+use super::past::Past;
 use crate::algebra::{BATCH, Registers};
-use crate::system::{BRANCH_CHANGE, BRANCH_STEP};
+use crate::system::{BRANCH_CHANGE, BRANCH_STEP, LaneNumbers, Mask, bits, choose};
 
 /// For each motion the last solution tested, and the distance from it within which others are certainly on its branch.
 ///
@@ -18,26 +18,27 @@ pub(super) struct Certain {
     reach: LaneNumbers,
 }
 
-/// Jacobians and their left inverses, by the registers in which they are.
+/// Jacobians and their left inverses, row by row, by the registers in which they are.
 pub(super) struct LaneJacobians<'r> {
-    pub jacobian: &'r [Vec<usize>],
-    pub inverse: &'r [Vec<usize>],
-    pub registers: &'r Registers,
+    pub jacobian: &'r [usize],
+    pub inverse: &'r [usize],
+    pub unknowns: usize,
+    /// The norm of the derivative of the Jacobian.
+    pub curvature: f64,
 }
 
 impl LaneJacobians<'_> {
     /// For each motion (βK)², infinite where there is no inverse.
-    fn sizes(&self, curvature: f64) -> LaneNumbers {
+    fn sizes(&self, registers: &Registers) -> LaneNumbers {
         let mut size = LaneNumbers::ZERO;
-        for &register in self.inverse.iter().flatten() {
-            let entries = self.registers.rows(register);
+        for &register in self.inverse {
+            let entries = registers.rows(register);
             (0..BATCH).for_each(|i| size.0[i] += entries[i] * entries[i]);
         }
-        let none = self.inverse.iter().all(Vec::is_empty);
         for size in &mut size.0 {
-            let finite = size.is_finite() && !none;
+            let finite = size.is_finite() && !self.inverse.is_empty();
             *size = if finite {
-                *size * curvature * curvature
+                *size * self.curvature * self.curvature
             } else {
                 f64::INFINITY
             };
@@ -48,16 +49,13 @@ impl LaneJacobians<'_> {
 
 impl Certain {
     /// No solution yet, for the numbers in registers with these weights.
-    pub fn none<'w>(
-        numbers: impl Iterator<Item = (usize, &'w f64)>,
-        jacobian: &[Vec<usize>],
-    ) -> Self {
+    pub fn none<'w>(numbers: impl Iterator<Item = (usize, &'w f64)>, jacobian: usize) -> Self {
         let known = numbers.filter(|(_, weight)| **weight > 0.0);
         Certain {
             known: known
                 .map(|(i, weight)| (i, *weight, LaneNumbers::ZERO))
                 .collect(),
-            jacobian: vec![LaneNumbers::ZERO; jacobian.iter().map(Vec::len).sum()],
+            jacobian: vec![LaneNumbers::ZERO; jacobian],
             reach: LaneNumbers::ZERO,
         }
     }
@@ -87,16 +85,11 @@ impl Certain {
     }
 
     /// Motions among `of` that are on their branches by the change of the Jacobian.
-    pub fn sure(
-        &self,
-        of: &Mask,
-        now: &LaneJacobians,
-        curvature: f64,
-        registers: &Registers,
-    ) -> Mask {
-        let (size, apart) = (now.sizes(curvature), self.apart(registers));
-        let width = now.jacobian.first().map_or(0, Vec::len);
-        let changes: Vec<LaneNumbers> = (now.jacobian.iter().flatten())
+    pub fn sure(&self, of: &Mask, now: &LaneJacobians, registers: &Registers) -> Mask {
+        let (size, apart) = (now.sizes(registers), self.apart(registers));
+        let width = now.unknowns.max(1);
+        let rows = (now.jacobian.len() / width).max(1);
+        let changes: Vec<LaneNumbers> = (now.jacobian.iter())
             .zip(&self.jacobian)
             .map(|(&register, before)| {
                 let now = registers.rows(register);
@@ -104,7 +97,7 @@ impl Certain {
             })
             .collect();
         let mut squares = LaneNumbers::ZERO;
-        for row in now.inverse {
+        for row in now.inverse.chunks_exact(rows) {
             for c in 0..width {
                 let mut sum = LaneNumbers::ZERO;
                 for (k, &register) in row.iter().enumerate() {
@@ -121,29 +114,22 @@ impl Certain {
             let changes_little = square <= BRANCH_CHANGE.powi(2) && way <= BRANCH_STEP.powi(2);
             let certain =
                 size.0[i].is_finite() && (36.0 * size.0[i] * way <= 1.0 || changes_little);
-            sure[i] &= u64::from(certain).wrapping_neg();
+            sure[i] &= bits(certain);
         });
         sure
     }
 
     /// Takes the present solutions of some motions.
-    pub fn keep(
-        &mut self,
-        which: &Mask,
-        now: &LaneJacobians,
-        curvature: f64,
-        registers: &Registers,
-    ) {
-        let size = now.sizes(curvature);
+    pub fn keep(&mut self, which: &Mask, now: &LaneJacobians, registers: &Registers) {
+        let size = now.sizes(registers);
         let mut reach = LaneNumbers::ZERO;
         (0..BATCH).for_each(|i| reach.0[i] = 0.64 / (size.0[i] + 1e-30));
-        self.reach.choose(&reach.0, which);
+        choose(&mut self.reach.0, &reach.0, which);
         for (register, _, from) in &mut self.known {
-            from.choose(registers.rows(*register), which);
+            choose(&mut from.0, registers.rows(*register), which);
         }
-        let places = now.jacobian.iter().flatten();
-        for (kept, &register) in self.jacobian.iter_mut().zip(places) {
-            kept.choose(registers.rows(register), which);
+        for (kept, &register) in self.jacobian.iter_mut().zip(now.jacobian) {
+            choose(&mut kept.0, registers.rows(register), which);
         }
     }
 }

@@ -1,26 +1,10 @@
 //! Backward differences of motions, and extrapolation to their next solutions.
 
 use crate::algebra::{BATCH, Registers};
+use crate::system::{LaneNumbers, Mask, choose};
 
 /// Orders of extrapolation: none, constant moves, moves that change linearly and quadratically.
 const ORDERS: usize = 4;
-
-/// For each motion all bits or none.
-pub(super) type Mask = [u64; BATCH];
-
-/// A number for each motion.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
-pub(super) struct LaneNumbers(pub [f64; BATCH]);
-
-impl LaneNumbers {
-    pub const ZERO: LaneNumbers = LaneNumbers([0.0; BATCH]);
-
-    /// Takes the numbers of some motions.
-    pub fn choose(&mut self, from: &[f64; BATCH], motions: &Mask) {
-        choose(&mut self.0, from, motions);
-    }
-}
 
 /// The latest solutions, with the backward differences m, ∇m, ∇²m of the moves m that led there.
 ///
@@ -43,8 +27,8 @@ struct KnownPast {
 
 impl Past {
     /// A past without moves, for the numbers in these registers.
-    pub fn none(of: &[usize], registers: &Registers) -> Self {
-        let known = of.iter().map(|&register| KnownPast {
+    pub fn none(of: impl Iterator<Item = usize>, registers: &Registers) -> Self {
+        let known = of.map(|register| KnownPast {
             register,
             latest: LaneNumbers(*registers.rows(register)),
             differences: [LaneNumbers::ZERO; ORDERS - 1],
@@ -138,21 +122,5 @@ impl Past {
             }
             choose(&mut row.0, &added.0, reached);
         }
-    }
-}
-
-/// Copies the numbers of some motions from one register to another.
-#[inline(always)]
-pub(super) fn assign(to: usize, from: usize, motions: &Mask, registers: &mut Registers) {
-    let from = *registers.rows(from);
-    choose(registers.rows_mut(to), &from, motions);
-}
-
-/// Sets the numbers of some motions.
-#[inline(always)]
-fn choose(to: &mut [f64; BATCH], from: &[f64; BATCH], motions: &Mask) {
-    for i in 0..BATCH {
-        let kept = to[i].to_bits() & !motions[i];
-        to[i] = f64::from_bits(kept | from[i].to_bits() & motions[i]);
     }
 }

@@ -1,12 +1,21 @@
 //! The program of a follower.
 
-use super::Results;
-use crate::algebra::{LEAST_PIVOT, Place, Recorded, eliminate};
-use crate::analysis::solver::iteration::{Iteration, numbered, places};
+use crate::algebra::{Decision, LEAST_PIVOT, Place, Recorded, eliminate};
+use crate::analysis::solver::iteration::{Iteration, places};
 use crate::analysis::solver::{NoSolver, VariablePlan};
 use crate::linear::DENSE_LIMIT;
 use crate::number::Number;
 use crate::system::{Coordinate, System};
+
+/// The places of the program's results.
+pub(super) struct WrittenIteration {
+    /// Section by section.
+    pub sections: [Vec<Place>; 6],
+    /// The numbers of the state that follow from the others, in their order.
+    pub placed: Vec<usize>,
+    pub unknowns: usize,
+    pub decisions: Vec<Decision>,
+}
 
 impl VariablePlan<'_> {
     /// Records the iteration and the numbers that follow from it. The inputs are the held values that change, then the
@@ -16,7 +25,7 @@ impl VariablePlan<'_> {
         changing: &[usize],
         values: &[f64],
         longest: f64,
-    ) -> Result<Results<Place>, NoSolver> {
+    ) -> Result<WrittenIteration, NoSolver> {
         let input = |(i, &value): (usize, &f64)| match changing.iter().position(|of| *of == i) {
             Some(number) => Recorded::input(number),
             None => Recorded::from_f64(value),
@@ -48,9 +57,8 @@ impl VariablePlan<'_> {
             true => eliminate(jacobian.clone(), units, unknowns).map_or_else(|_| vec![], |of| of.0),
             false => Vec::new(),
         };
-        let inverse = (0..unknowns)
-            .map(|k| columns.iter().map(|column| column[k].place()).collect())
-            .collect();
+        let inverse = (0..unknowns).flat_map(|k| columns.iter().map(move |column| column[k]));
+        let inverse: Vec<Recorded> = inverse.collect();
         let squares = |of: Vec<Recorded>| {
             let all = of.into_iter();
             all.fold(Recorded::zero(), |sum, x| sum + x * x)
@@ -76,21 +84,29 @@ impl VariablePlan<'_> {
             let free = placed.iter().all(|(of, _)| *of != i);
             free.then(|| variable.of(self.mechanism, &moved))
         });
-        let moved: Vec<Recorded> = moved.collect();
+        let step = moved.chain([doubt]).collect::<Vec<Recorded>>();
         placed.iter().for_each(|&(i, x)| state[i] = x);
         let (_, reached) = self.posed(&inputs, &state);
-        let columns =
-            Coordinate::all(self.mechanism).map(|of| of.of(self.mechanism, &reached).place());
-        Ok(Results {
-            size: size.place(),
-            doubt: doubt.place(),
-            moved: places(&moved),
-            placed: numbered(&placed),
-            placing: small.place(),
-            columns: columns.collect(),
-            decided: Recorded::decisions(),
-            jacobian: jacobian.iter().map(|row| places(row)).collect(),
-            inverse,
+        let columns = Coordinate::all(self.mechanism).map(|of| of.of(self.mechanism, &reached));
+        let following = placed.iter().map(|(_, x)| *x);
+        let reached: Vec<Recorded> = [small]
+            .into_iter()
+            .chain(following)
+            .chain(columns)
+            .collect();
+        let sections = [
+            &[],
+            &[size][..],
+            &step,
+            &reached,
+            &jacobian.concat(),
+            &inverse,
+        ];
+        Ok(WrittenIteration {
+            sections: sections.map(places),
+            placed: placed.iter().map(|(i, _)| *i).collect(),
+            unknowns,
+            decisions: Recorded::decisions(),
         })
     }
 }

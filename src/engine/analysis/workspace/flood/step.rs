@@ -11,7 +11,7 @@ use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::tolerance::{ROUNDING, SOLVED};
 use crate::solve::Equations;
 use crate::system::{System, Work};
-use side_by_side::{SideBySide, StepEnd};
+use side_by_side::SideBySide;
 
 /// Start of a step.
 #[derive(Clone, Debug)]
@@ -118,14 +118,13 @@ impl Steps {
         });
         for (i, start) in starts.iter().enumerate() {
             let arrives = match (&together, &ends) {
-                (Some(together), Some(ends)) => match ends[i] {
-                    StepEnd::Arrived => {
+                (Some(together), Some(ends)) if ends.open[i] == 0 => {
+                    let arrives = ends.arrived[i] != 0;
+                    if arrives {
                         together.get(i, &mut self.point, &mut self.found);
-                        true
                     }
-                    StepEnd::Lost => false,
-                    StepEnd::Open => self.solve(start),
-                },
+                    arrives
+                }
                 _ => self.solve(start),
             };
             if arrives {

@@ -1,53 +1,45 @@
 //! Many steps side by side, by operations recorded once.
 
 use super::LongestCorrection;
-use crate::algebra::{BATCH, Batch, Decision, Place, Recorded, Registers, record};
+use crate::algebra::{BATCH, Decision, Place, Recorded, Registers, record};
 use crate::analysis::workspace::problem::{HeldMotions, MapProblem, Rates, Targets};
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::number::tolerance::SOLVED;
 use crate::solve::Equations;
-use crate::system::{HeldPlatform, System};
+use crate::system::{HeldPlatform, LaneProgram, Mask, System, bits};
 
 /// Newton's method and the motions at its end as a program for [`BATCH`] places.
 ///
 /// Pivots are in one order, chosen where the operations are recorded. Where one of them is small, a place is left open.
 #[derive(Clone, Debug)]
 pub(super) struct SideBySide {
-    program: Batch,
+    program: LaneProgram,
     registers: Registers,
-    /// Number of held values in the equations; their registers are the first.
+    /// The register of each number: those that the equations hold, then those of a configuration.
+    given: Vec<usize>,
+    /// Number of held values in the equations.
     asked: usize,
-    /// The register of each number of a configuration.
-    configuration: Vec<usize>,
-    rows: Vec<usize>,
-    /// Numbers on whose sign the program rests, and true for negative ones.
-    decided: Vec<(usize, bool)>,
-    /// Register of the square of a step's length.
-    square: usize,
     /// Registers of the numbers of a configuration that steps move, each with that of its new value.
     moved: Vec<(usize, usize)>,
-    motions: HeldMotions<usize>,
 }
 
-/// Outcome of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum StepEnd {
-    Arrived,
-    /// A correction was too long, or there were too many.
-    Lost,
-    /// The program does not hold there.
-    Open,
+/// Places where a step arrived, and those where the program does not hold; elsewhere a correction was too long, or there
+/// were too many.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepEnds {
+    pub arrived: Mask,
+    pub open: Mask,
 }
 
-/// The sections of the program, after the one for what held values determine.
-#[derive(Clone, Copy, Debug)]
-enum StepSection {
-    /// The rows, and the decisions of elimination.
-    Rows = 1,
-    Step = 2,
-    Motions = 3,
-}
+/// The section of the rows, and of the decisions of elimination.
+const ROWS: usize = 1;
+/// The section of a configuration after a step, and of the square of the step's length.
+const STEP: usize = 2;
+/// The section of the motions.
+const MOTIONS: usize = 3;
+/// The section of the rates at which rows open in these.
+const OPENING: usize = 4;
 
 impl SideBySide {
     /// Records the operations at an assembled configuration; none if it is singular, or there are so many unknowns that
@@ -73,151 +65,107 @@ impl SideBySide {
         let mut inputs: Vec<usize> = (0..stands.len()).collect();
         inputs.sort_by_key(|&number| !stands[number]);
         let known = asked + stands.iter().filter(|stands| **stands).count();
-        let mut configuration = vec![0; stands.len()];
-        let given: Vec<f64> = at.numbers().collect();
+        let mut given: Vec<usize> = (0..asked + stands.len()).collect();
+        let numbers: Vec<f64> = at.numbers().collect();
         for number in inputs {
-            configuration[number] = sample.len();
-            sample.push(given[number]);
+            given[asked + number] = sample.len();
+            sample.push(numbers[number]);
         }
         let count = sample.len();
         let (written, operations) = record(sample, || {
-            let mut inputs = configuration.iter().map(|&place| Recorded::input(place));
-            let at = at.map(|_| inputs.next().expect("as many as there are numbers"));
+            let mut inputs = given.iter().map(|&number| Recorded::input(number));
             let mut system: System<Recorded> = problem.question.system_over();
-            targets.set(&mut system, (0..asked).map(Recorded::input));
+            targets.set(&mut system, inputs.by_ref().take(asked));
+            let at = at.map(|_| inputs.next().expect("as many as there are numbers"));
             written(&system, rates, &at)
         });
-        let WrittenStep {
-            rows,
-            decisions,
-            square,
-            moved,
-            motions,
-        } = written?;
-        let decided: Vec<Place> = decisions.iter().map(|(place, _)| *place).collect();
-        let mut sections = [
-            Vec::new(),
-            [&rows[..], &decided].concat(),
-            [&moved[..], &[square]].concat(),
-            [&motions.motions[..], &motions.opening].concat(),
-        ];
-        sections[0] = Batch::known(&operations, known, &sections.concat());
-        let program = Batch::new(&operations, count, &sections);
-        let results = |of: &[Place]| of.iter().map(|&place| program.result(place)).collect();
-        let to: Vec<usize> = results(&moved);
-        let moved = configuration.iter().copied().zip(to);
+        let (sections, decisions) = written?;
+        let program = LaneProgram::new(&operations, (count, known), &sections, (&decisions, ROWS));
+        let moved = given[asked..].iter().zip(program.results(STEP));
+        let moved = moved.filter(|(from, to)| from != to);
         Some(SideBySide {
-            rows: results(&rows),
-            decided: (decisions.iter())
-                .map(|&(place, negative)| (program.result(place), negative))
-                .collect(),
-            square: program.result(square),
-            moved: moved.filter(|(from, to)| from != to).collect(),
-            motions: HeldMotions {
-                motions: results(&motions.motions),
-                opening: results(&motions.opening),
-            },
+            moved: moved.map(|(from, to)| (*from, *to)).collect(),
             registers: program.registers(),
+            given,
             asked,
-            configuration,
             program,
         })
     }
 
     /// Puts a place near where it is to arrive; the numbers that the equations hold come first.
     pub fn put(&mut self, place: usize, asked: impl Iterator<Item = f64>, at: &Configuration<f64>) {
-        let registers = (0..self.asked).chain(self.configuration.iter().copied());
-        for (register, value) in registers.zip(asked.chain(at.numbers())) {
-            self.registers.rows_mut(register)[place] = value;
+        for (register, value) in self.given.iter().zip(asked.chain(at.numbers())) {
+            self.registers.rows_mut(*register)[place] = value;
         }
     }
 
     /// Leads the first places on, as far as corrections may be.
-    pub fn solve(&mut self, reaches: impl Iterator<Item = LongestCorrection>) -> Vec<StepEnd> {
-        let registers = &mut self.registers;
+    pub fn solve(&mut self, reaches: impl Iterator<Item = LongestCorrection>) -> StepEnds {
+        let SideBySide {
+            program, registers, ..
+        } = self;
         let mut reaches: Vec<LongestCorrection> = reaches.collect();
         let most = LongestCorrection::most(reaches.iter().copied());
-        let mut ends: Vec<Option<StepEnd>> = vec![None; reaches.len()];
-        self.program.run(0, registers);
-        for step in 0..=most {
-            self.program.run(StepSection::Rows as usize, registers);
-            let (mut holds, mut solved) = ([true; BATCH], [true; BATCH]);
-            for &(register, negative) in &self.decided {
-                let rows = holds.iter_mut().zip(registers.rows(register));
-                rows.for_each(|(holds, x)| *holds &= (*x < 0.0) == negative);
-            }
-            for &register in &self.rows {
-                let rows = solved.iter_mut().zip(registers.rows(register));
-                // a NaN is not small
-                rows.for_each(|(solved, x)| *solved &= x.abs() <= SOLVED);
-            }
-            for (i, end) in ends.iter_mut().enumerate().filter(|(_, end)| end.is_none()) {
-                *end = match (holds[i], solved[i]) {
-                    (false, _) => Some(StepEnd::Open),
-                    (_, true) => Some(StepEnd::Arrived),
-                    _ => None,
-                };
-            }
-            if step == most || ends.iter().all(Option::is_some) {
-                break;
-            }
-            self.program.run(StepSection::Step as usize, registers);
-            let squares = *registers.rows(self.square);
-            for (i, end) in ends.iter_mut().enumerate().filter(|(_, end)| end.is_none()) {
-                *end = match reaches[i].allows(squares[i].sqrt()) {
-                    true => None,
-                    // the pivots of elimination may be worse than those of a factorisation
-                    false if !squares[i].is_finite() => Some(StepEnd::Open),
-                    false => Some(StepEnd::Lost),
-                };
-            }
-            for &(to, from) in &self.moved {
-                let from = *registers.rows(from);
-                let to = registers.rows_mut(to);
-                for (i, _) in ends.iter().enumerate().filter(|(_, end)| end.is_none()) {
-                    to[i] = from[i];
+        let going: Mask = std::array::from_fn(|i| bits(i < reaches.len()));
+        let (rows, step) = (program.results(ROWS), program.results(STEP));
+        let mut ends = StepEnds::default();
+        let judge = |section: usize, going: &mut Mask, registers: &Registers| match section {
+            ROWS => {
+                let before = *going;
+                program.holds(going, registers);
+                let mut solved = *going;
+                for &register in rows {
+                    let rows = solved.iter_mut().zip(registers.rows(register));
+                    // a NaN is not small
+                    rows.for_each(|(solved, x)| *solved &= bits(x.abs() <= SOLVED));
+                }
+                for i in 0..BATCH {
+                    ends.open[i] |= before[i] & !going[i];
+                    ends.arrived[i] |= solved[i];
+                    going[i] &= !solved[i];
                 }
             }
-        }
-        self.program.run(StepSection::Motions as usize, registers);
-        let ends = ends.into_iter();
-        ends.map(|end| end.unwrap_or(StepEnd::Lost)).collect()
+            _ => {
+                let squares = registers.rows(step[step.len() - 1]);
+                for (i, reach) in reaches.iter_mut().enumerate() {
+                    let before = going[i];
+                    if before != 0 {
+                        going[i] = bits(reach.allows(squares[i].sqrt()));
+                    }
+                    // the pivots of elimination may be worse than those of a factorisation
+                    ends.open[i] |= before & !going[i] & bits(!squares[i].is_finite());
+                }
+            }
+        };
+        program.newton([ROWS, STEP], &self.moved, (going, most), registers, judge);
+        program.run(MOTIONS, registers);
+        program.run(OPENING, registers);
+        ends
     }
 
     /// Copies the solution of a place, with its motions.
     pub fn get(&self, place: usize, at: &mut Configuration<f64>, motions: &mut HeldMotions<f64>) {
         let number = |register: &usize| self.registers.rows(*register)[place];
-        let numbers = self.configuration.iter().map(number);
+        let numbers = self.given[self.asked..].iter().map(number);
         at.numbers_mut().zip(numbers).for_each(|(at, x)| *at = x);
-        let fill = |to: &mut Vec<f64>, from: &[usize]| {
+        let fill = |to: &mut Vec<f64>, section: usize| {
             to.clear();
-            to.extend(from.iter().map(number));
+            to.extend(self.program.results(section).iter().map(number));
         };
-        fill(&mut motions.motions, &self.motions.motions);
-        fill(&mut motions.opening, &self.motions.opening);
+        fill(&mut motions.motions, MOTIONS);
+        fill(&mut motions.opening, OPENING);
     }
 }
 
-/// The places of the program's results.
-struct WrittenStep {
-    rows: Vec<Place>,
-    decisions: Vec<Decision>,
-    square: Place,
-    /// Places of the numbers of a configuration after a step.
-    moved: Vec<Place>,
-    motions: HeldMotions<Place>,
-}
-
-/// Writes everything; none where the equations are singular.
+/// Writes everything, section by section; none where the equations are singular.
 fn written(
     system: &System<Recorded>,
     rates: &Rates,
     at: &Configuration<Recorded>,
-) -> Option<WrittenStep> {
-    let places = |of: &[Recorded]| of.iter().map(|x| x.place()).collect::<Vec<Place>>();
+) -> Option<([Vec<Place>; 5], Vec<Decision>)> {
     let mut work = system.work();
     system.linearise(at, &mut work);
-    let rows = places(system.residual_of(&work));
+    let rows = system.residual_of(&work).to_vec();
     system.factorise(0.0, &mut work);
     if system.undetermined(&work) > 0 {
         return None;
@@ -229,25 +177,18 @@ fn written(
     system.step(&mut work);
     let step = system.step_of(&work).to_vec();
     let square = step.iter().fold(Recorded::zero(), |sum, &x| sum + x * x);
-    let moved: Vec<Recorded> = system.displaced(at, &step).numbers().collect();
+    let mut moved: Vec<Recorded> = system.displaced(at, &step).numbers().collect();
+    moved.push(square);
     let (motions, opening) = Default::default();
     let mut found = HeldMotions { motions, opening };
     rates.motions(at, system, &mut work, &mut found);
     // as many rows as unknowns stay closed by the elimination itself
-    let redundant = rows.len() > step.len();
-    Some(WrittenStep {
-        decisions: Recorded::decisions(),
-        square: square.place(),
-        moved: places(&moved),
-        motions: HeldMotions {
-            motions: places(&found.motions),
-            opening: match redundant {
-                true => places(&found.opening),
-                false => Vec::new(),
-            },
-        },
-        rows,
-    })
+    if rows.len() <= step.len() {
+        found.opening.clear();
+    }
+    let sections = [Vec::new(), rows, moved, found.motions, found.opening];
+    let places = |of: Vec<Recorded>| of.into_iter().map(Recorded::place).collect();
+    Some((sections.map(places), Recorded::decisions()))
 }
 
 #[cfg(test)]
