@@ -19,7 +19,7 @@ use std::time::Instant;
 use limits::lanes::{FourBars, LANES, Platforms};
 use limits::stewart_gough::Pose;
 use linkwork::algebra::BATCH;
-use linkwork::analysis::solver::{Follower, Following};
+use linkwork::analysis::solver::Follower;
 use linkwork::ask;
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Watch;
@@ -139,7 +139,7 @@ fn compare(work: &Work) {
         .map(|&place| Coordinate::Joint(place))
         .collect();
     let begun = Instant::now();
-    let follower = Follower::new(&question, &starts[0], &coordinates, Following::default());
+    let follower = Follower::new(&question, &starts[0], &coordinates);
     let follower = follower.expect("a regular start");
     let recording = begun.elapsed().as_secs_f64() * 1e6;
     let side_by_side = || {

@@ -60,8 +60,8 @@ pub use record::{NamedUnit, infinite_if_null};
 pub(crate) use record::{is_origin, uncut};
 pub use resting::{NotAlgebraic, RestEquations, RestWay};
 pub use search::{
-    Analysed, Attempt, Closed, Closing, GivenPose, Moved, NotClosed, RESTARTS, Search, Searched,
-    TooLarge, WidestGap, close, moved, random_configuration, sampling_range, too_large,
+    Analysed, AssemblySettings, Attempt, Closed, GivenPose, Moved, NotClosed, RESTARTS, Search,
+    Searched, TooLarge, WidestGap, close, moved, random_configuration, sampling_range, too_large,
 };
 pub use sets::sets_of_angles;
 pub use tangent::{

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use linkwork::algebra::BATCH;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
-use linkwork::analysis::solver::{Follower, Following, solver, values};
+use linkwork::analysis::solver::{Follower, solver, values};
 use linkwork::ask;
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
@@ -349,7 +349,7 @@ fn a_solver_that_begins_at_its_start_keeps_to_the_branch_of_the_start() {
 fn side_by_side(name: &str, mechanism: &Mechanism, path: &[Configuration<f64>]) {
     let (question, held) = (Question::new(mechanism), held(mechanism));
     let coordinates: Vec<Coordinate> = held.iter().map(|&j| Coordinate::Joint(j)).collect();
-    let follower = Follower::new(&question, &path[0], &coordinates, Following::default()).unwrap();
+    let follower = Follower::new(&question, &path[0], &coordinates).unwrap();
     let mut motions = follower.motions(&path[0]);
     let mut solved = 0;
     for at in &path[1..] {

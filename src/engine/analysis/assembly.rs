@@ -8,36 +8,14 @@ use crate::geometry::Pose;
 use crate::mechanism::{Configuration, Frame, Mechanism, turn_near};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::{Equations, Newton, Stop, Watch};
+pub use crate::system::{AssemblySettings, Count, FrameRecord, Gap, Named, PlatformRecord};
 use crate::system::{
-    Attempt, Freedoms, Neighbourhood, Question, QuestionError, RESTARTS, Search, approach,
-    check_count, moved,
+    Attempt, Freedoms, Neighbourhood, Question, QuestionError, Search, approach, check_count, moved,
 };
-pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
 pub use report::{AssemblyReport, JointVariable, Outcome, RemainingFreedoms};
 
 /// A condition number above this is worth a warning: four digits of the joint values are lost.
 const POOR_CONDITION: f64 = 1e4;
-
-/// Settings of the search for an assembled configuration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AssemblySettings {
-    /// The iteration.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
-    /// Seed of the random starts.
-    pub seed: u64,
-}
-
-impl Default for AssemblySettings {
-    fn default() -> Self {
-        AssemblySettings {
-            newton: Newton::default(),
-            restarts: RESTARTS,
-            seed: 1,
-        }
-    }
-}
 
 /// Finds the assembled configuration near the start of a question.
 ///

@@ -13,8 +13,9 @@ use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::sorting::sort_by;
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Closing, Coordinate, Dynamics, GivenPose, Load, Named, Neighbourhood, NoDynamics,
-    NotAlgebraic, PlatformRecord, Question, RegularFreedoms, Still, random_configuration,
+    Analysed, AssemblySettings, Coordinate, Dynamics, GivenPose, Load, Named, Neighbourhood,
+    NoDynamics, NotAlgebraic, PlatformRecord, Question, RegularFreedoms, Still,
+    random_configuration,
 };
 
 pub use all::AllRest;
@@ -136,7 +137,7 @@ pub fn equilibrium(
     watch: &Watch,
 ) -> Analysed<EquilibriumReport> {
     let mechanism = question.mechanism();
-    let closed = match Closing::seeded(settings.seed).start(question, watch) {
+    let closed = match AssemblySettings::seeded(settings.seed).start(question, watch) {
         Ok(closed) => closed,
         Err(answer) => return answer,
     };

@@ -18,8 +18,8 @@ use crate::linear::{Decomposition, axis_aligned};
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Closing, Coordinate, Held, HeldPlatform, Lasting, Neighbourhood, Question, STILL,
-    Unknown, random_configuration,
+    Analysed, AssemblySettings, Coordinate, Held, HeldPlatform, Lasting, Neighbourhood, Question,
+    STILL, Unknown, random_configuration,
 };
 
 use branches::{FiniteSearch, STEP};
@@ -58,7 +58,7 @@ pub fn mobility(
 ) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
     // the same starts for all seeds: freedoms may depend on the assembly
-    let closed = match Closing::default().start(question, watch) {
+    let closed = match AssemblySettings::default().start(question, watch) {
         Ok(closed) => closed,
         Err(answer) => return answer,
     };

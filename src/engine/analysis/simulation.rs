@@ -12,8 +12,8 @@ use crate::mechanism::{Configuration, Point};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Drive, Dynamics, GivenPose, Load, NamedUnit, NoDynamics,
-    Question, RegularFreedoms,
+    Analysed, AssemblySettings, Coordinate, Drive, Dynamics, GivenPose, Load, NamedUnit,
+    NoDynamics, Question, RegularFreedoms,
 };
 
 use run::Run;
@@ -232,7 +232,7 @@ pub fn simulation(
     watch: &Watch,
 ) -> Analysed<SimulationReport> {
     let mechanism = question.mechanism();
-    let closed = match Closing::default().start(question, watch) {
+    let closed = match AssemblySettings::default().start(question, watch) {
         Ok(closed) => closed,
         Err(answer) => return answer,
     };

@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use crate::mechanism::{Mechanism, Variable};
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, GivenPose, Lock, Question, QuestionError, check_angle,
+    Analysed, AssemblySettings, Coordinate, GivenPose, Lock, Question, QuestionError, check_angle,
     check_angles, too_large,
 };
 pub(crate) use classify::Classifier;
@@ -107,7 +107,7 @@ pub fn singularities(
     if let Some(large) = too_large(mechanism) {
         return Ok(Analysed::TooLarge(large));
     }
-    let closed = match Closing::seeded(settings.seed).determined(question, watch)? {
+    let closed = match AssemblySettings::seeded(settings.seed).determined(question, watch)? {
         Ok(closed) => closed,
         Err(answer) => return Ok(answer),
     };

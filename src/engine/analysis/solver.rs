@@ -12,7 +12,7 @@ mod placing;
 mod report;
 mod variable;
 
-pub use follower::{Follower, Following, Motions};
+pub use follower::{Follower, Motions};
 pub use forces::forces;
 pub use report::{
     ClosedProgram, Component, Divisor, ForceComponent, ForceProgram, FrameProgram, Radicand, Solver,
@@ -27,9 +27,7 @@ use crate::mechanism::{
 };
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{
-    ClosedSolution, Coordinate, Held, HeldPlatform, Load, Question, System, Unknown,
-};
+use crate::system::{ClosedSolution, Coordinate, Held, HeldPlatform, Load, Question, System};
 use iteration::{Iteration, OpenRows, negated, numbered, places};
 use variable::StateVariable;
 
@@ -302,9 +300,11 @@ impl<'a> VariablePlan<'a> {
             .map(Recorded::input)
             .collect();
         let moved = system.displaced(&at, &step);
-        let frames = frames
-            .iter()
-            .map(|(name, frame)| self.frame(name, *frame, &system, (&inputs, &state), &rates));
+        let moving: Vec<Configuration<Dual<Recorded>>> = (rates.iter().enumerate())
+            .map(|(input, rates)| self.moving(input, (&inputs, &state), rates))
+            .collect();
+        let frames = frames.iter();
+        let frames = frames.map(|(name, frame)| self.frame(name, *frame, &moving));
         Ok(Solver {
             unknowns,
             residual: places(&rows.residual),
@@ -314,11 +314,9 @@ impl<'a> VariablePlan<'a> {
                 .collect(),
             pivots: pivots.filter_map(Divisor::of).collect(),
             slopes: iteration.jacobian.iter().map(|row| places(row)).collect(),
-            rates: (rates.iter().enumerate())
-                .map(|(input, rates)| {
-                    let at = self.moving(input, &system, (&inputs, &state), rates);
-                    let rate =
-                        |variable: &StateVariable| variable.of(self.mechanism, &at).slope.place();
+            rates: (moving.iter())
+                .map(|at| {
+                    let rate = |of: &StateVariable| of.of(self.mechanism, at).slope.place();
                     self.state.iter().map(rate).collect()
                 })
                 .collect(),
@@ -348,48 +346,31 @@ impl<'a> VariablePlan<'a> {
     fn moving(
         &self,
         input: usize,
-        system: &System<Recorded>,
         (inputs, state): (&[Recorded], &[Recorded]),
         rates: &[Recorded],
     ) -> Configuration<Dual<Recorded>> {
-        let (_, mut at) = self.posed(&varied(inputs, Some(input)), &varied(state, None));
-        let rate = |i: usize| Dual {
+        let (held, at) = self.posed(&varied(inputs, Some(input)), &varied(state, None));
+        let rate = |&slope: &Recorded| Dual {
             value: Recorded::zero(),
-            slope: rates[i],
+            slope,
         };
-        for (i, unknown) in system.unknowns().iter().enumerate() {
-            match *unknown {
-                Unknown::Joint(joint) => {
-                    at.joints[joint] += rate(i).scale(system.joint_scale(joint));
-                }
-                Unknown::Twist(platform, 0) => {
-                    let omega = Vector3([rate(i), rate(i + 1), rate(i + 2)]);
-                    let shift = Vector3([rate(i + 3), rate(i + 4), rate(i + 5)]);
-                    let shift = shift.scaled(system.characteristic_length());
-                    at.platforms[platform] = at.platforms[platform].moved_by(&omega, shift);
-                }
-                Unknown::Twist(..) => {}
-            }
-        }
-        at
+        let step: Vec<Dual<Recorded>> = rates.iter().map(rate).collect();
+        System::new(&self.dimensions(), &held).displaced(&at, &step)
     }
 
-    /// The pose of a frame and its twists for unit rates of the inputs, from the rates of the unknowns.
+    /// The pose of a frame and its twists, from the configurations in motion at unit rates of the inputs.
     fn frame(
         &self,
         name: &str,
         frame: Frame,
-        system: &System<Recorded>,
-        (inputs, state): (&[Recorded], &[Recorded]),
-        rates: &[Vec<Recorded>],
+        moving: &[Configuration<Dual<Recorded>>],
     ) -> FrameProgram {
         let kinematics = Kinematics::new(&self.dimensions(), [frame]);
         let mut placement = kinematics.placement();
         let mut pose = Vec::new();
         let mut twists = Vec::new();
-        for (input, rates) in rates.iter().enumerate() {
-            let at = self.moving(input, system, (inputs, state), rates);
-            kinematics.place(&at, &mut placement);
+        for at in moving {
+            kinematics.place(at, &mut placement);
             let placed = kinematics.pose(frame, &placement);
             let placed = placed.expect("the plan has the frame");
             let axes = placed.rotation.0;

@@ -12,8 +12,8 @@ use crate::linear::{RANK_TOLERANCE, add, norm, rank_of};
 use crate::mechanism::{Along, ClosureKind, Configuration, GivenEffort, Kinematics, Mechanism};
 use crate::solve::Watch;
 use crate::system::{
-    Acting, Analysed, Closing, Coordinate, Equilibrium, GivenPose, Load, Loaded, Neighbourhood,
-    Question, QuestionError, Unknown, check_angles,
+    Acting, Analysed, AssemblySettings, Coordinate, Equilibrium, GivenPose, Load, Loaded,
+    Neighbourhood, Question, QuestionError, Unknown, check_angles,
 };
 
 pub use reactions::Reaction;
@@ -123,7 +123,7 @@ pub fn statics(
     watch: &Watch,
 ) -> Result<Analysed<StaticsReport>, QuestionError> {
     let mechanism = question.mechanism();
-    let closed = match Closing::default().determined(question, watch)? {
+    let closed = match AssemblySettings::default().determined(question, watch)? {
         Ok(closed) => closed,
         Err(answer) => return Ok(answer),
     };

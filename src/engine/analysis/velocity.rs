@@ -17,8 +17,8 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, Drive, GivenPose, Lock, Motion, Neighbourhood, Question,
-    QuestionError, Tangent, Unknown, check_angles, free_outputs, moving,
+    Analysed, AssemblySettings, Coordinate, Drive, GivenPose, Lock, Motion, Neighbourhood,
+    Question, QuestionError, Tangent, Unknown, check_angles, free_outputs, moving,
 };
 
 pub use centres::InstantCentre;
@@ -199,7 +199,7 @@ pub fn velocity(
     watch: &Watch,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
-    let closed = match Closing::default().determined(question, watch)? {
+    let closed = match AssemblySettings::default().determined(question, watch)? {
         Ok(closed) => closed,
         Err(answer) => return Ok(answer),
     };

@@ -17,7 +17,7 @@ use crate::mechanism::{
 };
 use crate::solve::Watch;
 use crate::system::{
-    self, Analysed, Closed, Closing, Coordinate, Drive, ForceError, Load, check_angle,
+    self, Analysed, AssemblySettings, Closed, Coordinate, Drive, ForceError, Load, check_angle,
 };
 
 impl Question {
@@ -27,7 +27,7 @@ impl Question {
     /// If a name or a value is wrong.
     pub fn closed(&self, watch: &Watch) -> Result<Analysed<Closed>, AskError> {
         let question = self.resolved()?;
-        let closing = Closing::seeded(self.seed);
+        let closing = AssemblySettings::seeded(self.seed);
         Ok((closing.start(&question, watch)).map_or_else(|open| open, Analysed::Closed))
     }
 

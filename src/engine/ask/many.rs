@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use super::preparation::with_joint;
 use super::{AskError, Question, Role};
 use crate::algebra::BATCH;
-use crate::analysis::solver::{Follower, Following};
+use crate::analysis::solver::Follower;
 use crate::linear::DENSE_LIMIT;
 use crate::solve::{Watch, each};
 use crate::system::{self, check_count};
@@ -115,10 +115,9 @@ impl Question {
             }
         };
         all.order = all.order(rows);
-        let settings = Following::default();
         // of many unknowns no program makes the inverse by which motions are certain to keep to their branches
         let follower = (rows >= FEW && all.system.unknowns().len() <= DENSE_LIMIT)
-            .then(|| Follower::new(&question, &all.start, &coordinates, settings).ok())
+            .then(|| Follower::new(&question, &all.start, &coordinates).ok())
             .flatten();
         let most = ROWS * follower.as_ref().map_or(1, |_| BATCH);
         // blocks of the same size, for cores to share

@@ -144,15 +144,13 @@ impl Curve {
     pub fn along(mechanism: &Mechanism, held: &Held<f64>, inputs: Vec<Driven>) -> Self {
         let system = System::new(mechanism.dimensions(), held);
         // an angle of a platform jumps, a joint does not
-        let length = mechanism.characteristic_length();
-        let measures = |input: &Driven| match input.coordinate {
-            Coordinate::Joint(joint) => {
-                2.0 * (input.to - input.from).abs() / system.joint_scale(joint)
-            }
-            Coordinate::Pose(_, c) if c.is_angle() => 0.1 * (input.to - input.from).abs(),
-            Coordinate::Pose(..) => (input.to - input.from).abs() / length,
-            // never an input: it has no value to go to
-            Coordinate::Turn(..) => 0.0,
+        let measures = |input: &Driven| {
+            let preferred = match input.coordinate {
+                Coordinate::Joint(_) => 2.0,
+                of if of.is_angle(mechanism) => 0.1,
+                _ => 1.0,
+            };
+            preferred * (input.to - input.from).abs() / input.coordinate.scale(mechanism)
         };
         let measure = (0..inputs.len())
             .max_by(|&i, &j| measures(&inputs[i]).total_cmp(&measures(&inputs[j])))
@@ -192,13 +190,21 @@ impl Curve {
         let change = input.to - input.from;
         match input.coordinate {
             Coordinate::Joint(joint) => (at.joints[joint] - input.from) / change,
+            of => {
+                let gap = self.gap(of, at, 0.5 * (input.from + input.to));
+                0.5 + gap * self.unit(of) / change
+            }
+        }
+    }
+
+    /// How far a coordinate is beyond a value, in rad or characteristic lengths.
+    fn gap(&self, of: Coordinate, at: &Configuration<f64>, value: f64) -> f64 {
+        match of {
+            Coordinate::Joint(joint) => (at.joints[joint] - value) / self.unit(of),
             Coordinate::Pose(platform, c) => {
-                let middle = 0.5 * (input.from + input.to);
                 let length = self.system.characteristic_length();
-                let unit = if c.is_angle() { 1.0 } else { length };
-                let middle = self.system.about_centre(c, middle);
-                let (gap, _) = c.row(&at.platforms[platform].pose(), middle, length);
-                0.5 + gap * unit / change
+                let value = self.system.about_centre(c, value);
+                c.row(&at.platforms[platform].pose(), value, length).0
             }
             Coordinate::Turn(..) => 0.0,
         }
@@ -285,15 +291,7 @@ impl Curve {
             .map(|(_, input)| {
                 let unit = self.unit(input.coordinate);
                 let wanted = input.from + part * (input.to - input.from);
-                let gap = match input.coordinate {
-                    Coordinate::Joint(joint) => (at.joints[joint] - wanted) / unit,
-                    Coordinate::Pose(platform, c) => {
-                        let length = self.system.characteristic_length();
-                        let wanted = self.system.about_centre(c, wanted);
-                        c.row(&at.platforms[platform].pose(), wanted, length).0
-                    }
-                    Coordinate::Turn(..) => 0.0,
-                };
+                let gap = self.gap(input.coordinate, at, wanted);
                 let mut slope = input.coordinate.slope_in(&self.system, at);
                 if let Some(measure) = measure {
                     let ratio = (input.to - input.from) / unit * self.unit(measure.coordinate)
@@ -310,24 +308,10 @@ impl Curve {
     #[inline]
     pub fn offset(&self, from: &Place<Configuration<f64>>, to: &Configuration<f64>) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
-        let mut take = |i: usize, x: f64| {
+        (self.system).each_difference(from.at.view(), to.view(), |i, x| {
             along += x * from.tangent[i];
             squares += x * x;
-        };
-        for (i, &unknown) in self.system.unknowns().iter().enumerate() {
-            match unknown {
-                Unknown::Joint(joint) => {
-                    let change = to.joints[joint] - from.at.joints[joint];
-                    take(i, change / self.system.joint_scale(joint));
-                }
-                Unknown::Twist(platform, 0) => {
-                    let (a, b) = (&from.at.platforms[platform], &to.platforms[platform]);
-                    let twist = self.system.twist_between(a, b);
-                    (twist.into_iter().enumerate()).for_each(|(k, x)| take(i + k, x));
-                }
-                Unknown::Twist(..) => {}
-            }
-        }
+        });
         (along, (squares - along * along).max(0.0).sqrt())
     }
 

@@ -5,8 +5,8 @@ mod starts;
 mod way;
 
 pub use closing::{
-    Analysed, Closed, Closing, GivenPose, Moved, NotClosed, TooLarge, WidestGap, close, moved,
-    too_large,
+    Analysed, AssemblySettings, Closed, GivenPose, Moved, NotClosed, TooLarge, WidestGap, close,
+    moved, too_large,
 };
 pub use starts::{random_configuration, sampling_range};
 

@@ -16,33 +16,19 @@ use crate::system::{Coordinate, LaneProgram, Mask, Question, assign, bits};
 use certain::{Certain, LaneJacobians};
 use past::Past;
 
-/// Settings of a follower.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Following {
-    /// A point is a solution when no dimensionless row exceeds this.
-    pub tolerance: f64,
-    /// The longest step of all unknowns together, in rad and characteristic lengths: longer ones may lead to another
-    /// branch.
-    pub longest_step: f64,
-    /// Steps after which a motion is lost. Each must halve the rows, or the motion is lost before.
-    pub most_steps: usize,
-}
+/// A point is a solution when the root of the sum of the squares of all dimensionless rows does not exceed this.
+const TOLERANCE: f64 = 1e-12;
 
-impl Default for Following {
-    fn default() -> Self {
-        Following {
-            tolerance: 1e-12,
-            longest_step: 0.5,
-            most_steps: 12,
-        }
-    }
-}
+/// The longest step of all unknowns together, in rad and characteristic lengths: longer ones may lead to another branch.
+const LONGEST_STEP: f64 = 0.5;
+
+/// Steps after which a motion is lost. Each must halve the rows, or the motion is lost before.
+const MOST_STEPS: usize = 12;
 
 /// Follows motions of one question, of which each changes some held coordinates from solution to solution.
 #[derive(Clone, Debug)]
 pub struct Follower<'a> {
     plan: VariablePlan<'a>,
-    settings: Following,
     /// Indices of the changing coordinates among the inputs.
     changing: Vec<usize>,
     /// The values of all inputs at the start.
@@ -92,7 +78,6 @@ impl<'a> Follower<'a> {
         question: &Question<'a>,
         at: &Configuration<f64>,
         changing: &[Coordinate],
-        settings: Following,
     ) -> Result<Self, NoSolver> {
         let plan = VariablePlan::new(question);
         plan.check()?;
@@ -109,7 +94,7 @@ impl<'a> Follower<'a> {
         let mut sample: Vec<f64> = changing.iter().map(|&i| inputs[i]).collect();
         sample.extend(&state);
         let (written, operations) = record(sample.clone(), || {
-            plan.recorded(&changing, &inputs, settings.longest_step)
+            plan.recorded(&changing, &inputs, LONGEST_STEP)
         });
         let written = written?;
         let (count, known) = (sample.len(), changing.len());
@@ -127,7 +112,6 @@ impl<'a> Follower<'a> {
             placed: placed.into_iter().zip(results(REACHED).skip(1)).collect(),
             unknowns: written.unknowns,
             plan,
-            settings,
             changing,
             inputs,
             program,
@@ -201,8 +185,8 @@ impl<'a> Follower<'a> {
             past,
             certain,
         } = motions;
-        let square = self.settings.tolerance.powi(2);
-        let (going, most) = (going.map(bits), self.settings.most_steps);
+        let square = TOLERANCE.powi(2);
+        let going = going.map(bits);
         predict(past, &going, registers);
         let (mut solved, mut last) = ([0; BATCH], [f64::INFINITY; BATCH]);
         let judge = |section: usize, open: &mut Mask, registers: &Registers| {
@@ -213,7 +197,7 @@ impl<'a> Follower<'a> {
                 _ => trust(open, told),
             }
         };
-        let (sections, open) = ([ROWS, STEP], (going, most));
+        let (sections, open) = ([ROWS, STEP], (going, MOST_STEPS));
         (self.program).newton(sections, &self.moved, open, registers, judge);
         self.program.run(REACHED, registers);
         // after that section: what it needs is no longer kept for the next

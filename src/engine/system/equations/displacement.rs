@@ -67,15 +67,27 @@ impl<T: Factorable> System<T> {
         to: ConfigurationRef<T>,
         step: &mut [T],
     ) {
+        self.each_difference(from, to, |i, x| step[i] = x);
+    }
+
+    /// Takes each number of the dimensionless step between configurations.
+    #[inline(always)]
+    pub(in crate::system) fn each_difference(
+        &self,
+        from: ConfigurationRef<T>,
+        to: ConfigurationRef<T>,
+        mut take: impl FnMut(usize, T),
+    ) {
         for (i, &unknown) in self.unknowns().iter().enumerate() {
             match unknown {
                 Unknown::Joint(joint) => {
                     let change = to.joints[joint] - from.joints[joint];
-                    step[i] = change.scale(1.0 / self.joint_scale(joint));
+                    take(i, change.scale(1.0 / self.joint_scale(joint)));
                 }
                 Unknown::Twist(platform, 0) => {
                     let (from, to) = (&from.platforms[platform], &to.platforms[platform]);
-                    step[i..i + 6].copy_from_slice(&self.twist_between(from, to));
+                    let twist = self.twist_between(from, to);
+                    (twist.into_iter().enumerate()).for_each(|(k, x)| take(i + k, x));
                 }
                 Unknown::Twist(..) => {}
             }

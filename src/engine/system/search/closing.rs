@@ -38,7 +38,7 @@ impl WidestGap {
 
 /// Settings of the search for the assembled configuration near the start of a question.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Closing {
+pub struct AssemblySettings {
     /// The iteration that closes the mechanism.
     pub newton: Newton,
     /// Random starts within limits after the guess has failed.
@@ -47,16 +47,16 @@ pub struct Closing {
     pub seed: u64,
 }
 
-impl Default for Closing {
+impl Default for AssemblySettings {
     fn default() -> Self {
-        Closing::seeded(1)
+        AssemblySettings::seeded(1)
     }
 }
 
-impl Closing {
+impl AssemblySettings {
     /// Default settings with another seed.
     pub fn seeded(seed: u64) -> Self {
-        Closing {
+        AssemblySettings {
             newton: Newton::default(),
             restarts: RESTARTS,
             seed,
@@ -69,7 +69,7 @@ impl Closing {
         close(question, &self.newton, starts, watch).map_err(Analysed::NotClosed)
     }
 
-    /// As [`Closing::start`], for a question that must leave no freedom.
+    /// As [`AssemblySettings::start`], for a question that must leave no freedom.
     ///
     /// # Errors
     /// Those of [`check_count`].

@@ -1,5 +1,8 @@
 //! Values of quantities over those of the names in them.
 
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
 use super::Metered;
 use crate::algebra::{Expression, Function, Node, SiUnit};
 use crate::analysis::sweep::Law;
@@ -74,13 +77,8 @@ fn is_geometric(expression: &Expression<Measured>) -> bool {
     if (all.iter()).any(|of| matches!(of, Measured::Size(_, Order::Acceleration))) {
         return false;
     }
-    let mut state = 0u64;
-    let mut random = || {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (state ^ (state >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        (mixed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut rng = Pcg64Mcg::seed_from_u64(1);
+    let mut random = || 2.0 * rng.random::<f64>() - 1.0;
     let mut decided = false;
     for _ in 0..DRAWS {
         let mut values: Vec<(Measured, f64)> = Vec::new();

@@ -230,8 +230,12 @@ impl Meter<'_> {
                     _ => turn.cross(&shift).0[part as usize] / square,
                 })
             }
-            Measured::Force(joint) => self.force(here, Coordinate::Joint(joint)),
-            Measured::PlatformForce(platform, c) => self.force(here, Coordinate::Pose(platform, c)),
+            Measured::Force(joint) => {
+                self.driving(here, Coordinate::Joint(joint), &here.balance?.forces)
+            }
+            Measured::PlatformForce(platform, c) => {
+                self.driving(here, Coordinate::Pose(platform, c), &here.balance?.forces)
+            }
             Measured::Power(worker) => here.balance.map(|of| of.power_of(worker)),
             Measured::Work(_) => here.works.get(i).copied(),
             Measured::Energy(energy) => {
@@ -243,10 +247,7 @@ impl Meter<'_> {
                 })
             }
             Measured::Inertia(joint) => {
-                let of = Coordinate::Joint(joint);
-                let place = self.coordinates.iter().position(|known| *known == of)?;
-                let inertia = *here.balance?.inertias.get(place)?;
-                (here.found.moves && inertia.is_finite()).then_some(inertia)
+                self.driving(here, Coordinate::Joint(joint), &here.balance?.inertias)
             }
             Measured::Reaction(of, part) => self.reaction(here, of, part),
             Measured::Shaking(part) => Some(part_of(part, &here.shaking)),
@@ -327,10 +328,11 @@ impl Meter<'_> {
         })
     }
 
-    fn force<T: Factorable>(&self, here: &KnownHere<T>, of: Coordinate) -> Option<T> {
+    /// What belongs to a held coordinate, of those in their order.
+    fn driving<T: Factorable>(&self, here: &KnownHere<T>, of: Coordinate, all: &[T]) -> Option<T> {
         let place = self.coordinates.iter().position(|known| *known == of)?;
-        let force = *here.balance?.forces.get(place)?;
-        (here.found.moves && force.is_finite()).then_some(force)
+        let own = *all.get(place)?;
+        (here.found.moves && own.is_finite()).then_some(own)
     }
 
     /// A part of a reaction that equilibrium determines. The size of a force across the plane of a planar mechanism is that

@@ -9,7 +9,7 @@ use crate::linear::norm;
 use crate::mechanism::{ConfigurationRef, Role, turn_near};
 use crate::number::tolerance::SAME;
 use crate::solve::SolutionCurve;
-use crate::system::{Coordinate, Curve, Held, Unknown};
+use crate::system::{Curve, Held, Unknown};
 
 #[derive(Clone, Debug)]
 pub(crate) struct Metric {
@@ -78,11 +78,7 @@ impl Metric {
                 .map(|seen| f64::from(u8::from(seen)))
                 .collect(),
             units: (problem.axes.iter())
-                .map(|axis| match axis.coordinate {
-                    Coordinate::Joint(joint) => free.system().joint_scale(joint),
-                    Coordinate::Pose(_, c) if !c.is_angle() => mechanism.characteristic_length(),
-                    Coordinate::Pose(..) | Coordinate::Turn(..) => 1.0,
-                })
+                .map(|axis| axis.coordinate.scale(mechanism))
                 .collect(),
             free,
         }

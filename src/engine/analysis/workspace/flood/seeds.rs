@@ -8,10 +8,10 @@ use super::metric::Metric;
 use super::neighbour::Flood;
 use super::spread::GrowingSet;
 use super::step::{StepStart, Steps};
-use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
+use crate::analysis::workspace::problem::{Grid, MapProblem};
 use crate::mechanism::{Configuration, turn_near};
-use crate::solve::{Newton, Pool, Stage, Stop, Watch, each};
-use crate::system::{System, Work, random_configuration, sets_of_angles, with_coordinates};
+use crate::solve::{Pool, Stage, Watch, each};
+use crate::system::{random_configuration, sets_of_angles, with_coordinates};
 
 /// Seeds found at the nodes that were searched.
 #[derive(Default)]
@@ -68,14 +68,6 @@ impl ModeSeeds {
     }
 }
 
-#[derive(Clone)]
-struct Storage {
-    targets: Targets,
-    system: System<f64>,
-    work: Work<f64>,
-    steps: Steps,
-}
-
 /// Newton's method from random starts at each of some nodes, and from the given configurations.
 pub(crate) fn search_modes(
     fill: &Flood,
@@ -83,14 +75,8 @@ pub(crate) fn search_modes(
     (given, watch): (&[Configuration<f64>], &Watch),
 ) -> ModeSeeds {
     let (problem, grid, metric) = (fill.problem, fill.grid, fill.metric);
-    let system = problem.question.system();
-    let storage = Storage {
-        targets: Targets::new(problem),
-        work: system.work(),
-        system,
-        steps: Steps::new(problem),
-    };
-    let found = each(nodes.len(), &storage, |storage, i| {
+    let plain = Steps::new(problem);
+    let found = each(nodes.len(), &plain, |steps, i| {
         let node = nodes[i];
         if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
             return (node, Vec::new());
@@ -106,11 +92,11 @@ pub(crate) fn search_modes(
                 _ => random_configuration(problem.mechanism, &around, &mut rng),
             };
             let at = put_in(problem, &values, &at);
-            take(metric, storage, &values, at, &mut found);
+            take(metric, steps, &values, at, &mut found);
         }
         (node, found)
     });
-    let mut last = storage.clone();
+    let mut last = plain.clone();
     let here = given.iter().filter_map(|at| {
         let node = nearest(problem, grid, at)?;
         let mut found = Vec::new();
@@ -125,23 +111,19 @@ pub(crate) fn search_modes(
 /// Adds what Newton's method finds from a start, if it is new.
 fn take(
     metric: &Metric,
-    storage: &mut Storage,
+    steps: &mut Steps,
     values: &[f64],
-    mut at: Configuration<f64>,
+    at: Configuration<f64>,
     found: &mut Vec<Configuration<f64>>,
 ) {
-    (storage.targets).ask(&mut storage.system, &mut at, values);
-    let mut trial = at.clone();
-    let report = Newton::default().solve(&storage.system, &mut at, &mut trial, &mut storage.work);
-    if report.stop != Stop::Solved
-        || found
-            .iter()
-            .any(|known| metric.same(known.view(), at.view()))
-    {
+    let Some(at) = steps.solved(at, values) else {
         return;
-    }
+    };
+    let mut known = found.iter();
     // where the mapped coordinates do not determine the motion, spreading cannot start
-    if storage.steps.indicators(&at, values).regular {
+    if !known.any(|known| metric.same(known.view(), at.view()))
+        && steps.indicators(&at, values).regular
+    {
         found.push(at);
     }
 }

@@ -9,7 +9,7 @@ use crate::analysis::workspace::problem::{
 use crate::linear::norm;
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::tolerance::{ROUNDING, SOLVED};
-use crate::solve::Equations;
+use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
 use side_by_side::SideBySide;
 
@@ -166,6 +166,18 @@ impl Steps {
             std::mem::swap(&mut self.point, &mut self.spare);
         }
         false
+    }
+
+    /// The solution that Newton's method finds from a start, wherever it is.
+    pub fn solved(
+        &mut self,
+        mut at: Configuration<f64>,
+        values: &[f64],
+    ) -> Option<Configuration<f64>> {
+        (self.targets).ask(&mut self.system, &mut at, values);
+        let newton = Newton::default();
+        let report = newton.solve(&self.system, &mut at, &mut self.spare, &mut self.work);
+        (report.stop == Stop::Solved).then_some(at)
     }
 
     fn motions(&mut self) {
