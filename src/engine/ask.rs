@@ -294,7 +294,7 @@ impl Question {
                     Role::Guess => question.guess(name, demand.value(0)),
                     _ => question.free(name),
                 };
-                question = put.map_err(item.named())?;
+                question = put.map_err(item.wrong(AskError::Named))?;
             }
         }
         Ok(match &self.near {

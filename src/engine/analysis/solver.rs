@@ -82,7 +82,8 @@ pub fn solver(
     let start = [inputs.clone(), state.clone()].concat();
     let mut sample = start.clone();
     // steps of the unknowns, then rates, accelerations and time
-    let first_rate = sample.len() + plan.unknowns();
+    let system = System::new(mechanism.dimensions(), &plan.held);
+    let first_rate = sample.len() + system.unknowns().len();
     sample.resize(first_rate, 0.0);
     sample.resize(first_rate + 2 * inputs.len() + 1, 0.1);
     // a platform to be found is not solved for in closed form
@@ -95,14 +96,7 @@ pub fn solver(
         .flatten();
     let solution = solution.filter(|solution| solution.solves(question, at));
     let (written, operations) = record(sample, || {
-        let written = plan.write(solution.as_ref(), frames)?;
-        let (inputs, state) = plan.variables();
-        let (_, at) = plan.posed(&inputs, &state);
-        let forces = load.map(|load| plan.forces(question, load, &at, first_rate));
-        Ok(Solver {
-            forces: forces.transpose()?,
-            ..written
-        })
+        plan.write(question, solution.as_ref(), frames, load)
     });
     let written = written?;
     let missing = written
@@ -194,20 +188,6 @@ impl<'a> VariablePlan<'a> {
         (of(&self.inputs), of(&self.state))
     }
 
-    /// The number of unknowns of a step.
-    fn unknowns(&self) -> usize {
-        System::new(self.mechanism.dimensions(), &self.held)
-            .unknowns()
-            .len()
-    }
-
-    /// Inputs and state as inputs of the program.
-    fn variables(&self) -> (Vec<Recorded>, Vec<Recorded>) {
-        let (given, kept) = (self.inputs.len(), self.state.len());
-        let inputs = |of: std::ops::Range<usize>| of.map(Recorded::input).collect();
-        (inputs(0..given), inputs(given..given + kept))
-    }
-
     /// The held coordinates and the configuration for given inputs and state.
     fn posed<T: Factorable>(&self, inputs: &[T], state: &[T]) -> (Held<T>, Configuration<T>) {
         let value = |variable: StateVariable| {
@@ -273,11 +253,14 @@ impl<'a> VariablePlan<'a> {
     /// Writes everything; names, values and operations are filled in afterwards.
     fn write(
         &self,
+        question: &Question,
         solution: Option<&ClosedSolution>,
         frames: &[(String, Frame)],
+        load: Option<&Load>,
     ) -> Result<Solver, NoSolver> {
         let (given, kept) = (self.inputs.len(), self.state.len());
-        let (inputs, state) = self.variables();
+        let [inputs, state] = [0..given, given..given + kept]
+            .map(|of| of.map(Recorded::input).collect::<Vec<Recorded>>());
         let (held, at) = self.posed(&inputs, &state);
         let dimensions = self.dimensions();
         let system = System::new(&dimensions, &held);
@@ -327,6 +310,9 @@ impl<'a> VariablePlan<'a> {
             placed: numbered(&iteration.placed),
             closed: solution.and_then(|solution| self.closed(solution, &at)),
             frames: frames.collect(),
+            forces: load
+                .map(|load| self.forces(question, load, &at, first_step + unknowns))
+                .transpose()?,
             ..Solver::default()
         })
     }

@@ -175,7 +175,10 @@ impl Question {
         for (item, left_out) in self.of(Role::Without) {
             if let Some(known) = own.leave_out(&left_out.name) {
                 let name = left_out.name.clone();
-                return Err(item.loaded()(ForceError::NotActing { name, known }));
+                return Err(item.wrong(AskError::Load)(ForceError::NotActing {
+                    name,
+                    known,
+                }));
             }
         }
         let mut load = Load {
@@ -197,7 +200,7 @@ impl Question {
                     load.wrench(question, &wrench.name, &text)
                 }
             };
-            load = loaded.map_err(item.loaded())?;
+            load = loaded.map_err(item.wrong(AskError::Load))?;
         }
         for (item, demand) in self.of(Role::Load) {
             if let Some(force) = self.changing(item, demand)? {
@@ -205,7 +208,7 @@ impl Question {
                 continue;
             }
             let loaded = load.joint(question, &demand.name, demand.value(0));
-            load = loaded.map_err(item.loaded())?;
+            load = loaded.map_err(item.wrong(AskError::Load))?;
         }
         Ok(load)
     }
@@ -240,7 +243,11 @@ impl Question {
         let plain = system::Question::new(self.mechanism());
         let mut locked: Vec<Coordinate> = Vec::new();
         for (item, demand) in self.of(Role::Lock) {
-            locked.extend(plain.coordinates(&demand.name).map_err(item.named())?);
+            locked.extend(
+                plain
+                    .coordinates(&demand.name)
+                    .map_err(item.wrong(AskError::Named))?,
+            );
         }
         // three angles at once are an orientation, which has no gimbal lock
         let single = |coordinate: &&Coordinate| match **coordinate {
@@ -304,11 +311,11 @@ impl Question {
         let mut drive = Drive::still(question);
         for (item, demand) in (self.once(Role::Rate)?.into_iter()).filter(|(item, _)| !but(*item)) {
             let driven = drive.rate(question, &demand.name, demand.value(0));
-            drive = driven.map_err(item.driven())?;
+            drive = driven.map_err(item.wrong(AskError::Drive))?;
         }
         for (item, demand) in self.once(Role::Acceleration)? {
             let driven = drive.acceleration(question, &demand.name, demand.value(0));
-            drive = driven.map_err(item.driven())?;
+            drive = driven.map_err(item.wrong(AskError::Drive))?;
         }
         Ok(drive)
     }

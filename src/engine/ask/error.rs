@@ -31,14 +31,9 @@ impl Item {
         }
     }
 
-    /// The error for a rate or an acceleration.
-    pub(super) fn driven(self) -> impl Fn(DriveError) -> AskError {
-        move |error| AskError::Drive(self, Box::new(error))
-    }
-
-    /// The error for a wrench or a load.
-    pub(super) fn loaded(self) -> impl Fn(ForceError) -> AskError {
-        move |error| AskError::Load(self, Box::new(error))
+    /// The error of a kind for what is wrong with it.
+    pub(super) fn wrong<E>(self, of: fn(Item, Box<E>) -> AskError) -> impl Fn(E) -> AskError {
+        move |error| of(self, Box::new(error))
     }
 
     /// The error for a quantity that cannot be known.
@@ -57,11 +52,6 @@ impl Item {
             text: text.to_owned(),
             error: Box::new(error),
         }
-    }
-
-    /// The error for a name or a value.
-    pub(super) fn named(self) -> impl Fn(QuestionError) -> AskError {
-        move |error| AskError::Named(self, Box::new(error))
     }
 }
 

@@ -85,7 +85,7 @@ impl Question {
                 text: tolerance.to_string(),
                 error,
             });
-            let number = number.map_err(item.named())?;
+            let number = number.map_err(item.wrong(AskError::Named))?;
             match moving {
                 true => Ok((place, number.abs())),
                 false => Err(item.unmeasured(text, Unmeasured::NoInput)),

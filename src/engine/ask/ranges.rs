@@ -17,11 +17,11 @@ impl Question {
         for (item, input) in self.once(Role::Input)? {
             let name = &input.name;
             // a wrong name is the first thing to say
-            (question.value(name, "home")).map_err(item.named())?;
+            (question.value(name, "home")).map_err(item.wrong(AskError::Named))?;
             let from = question.value(name, input.value(0));
-            let (coordinate, from) = from.map_err(item.value(0).named())?;
+            let (coordinate, from) = from.map_err(item.value(0).wrong(AskError::Named))?;
             let to = question.value(name, input.value(1));
-            let (_, to) = to.map_err(item.value(1).named())?;
+            let (_, to) = to.map_err(item.value(1).wrong(AskError::Named))?;
             if refuse(from, to) {
                 return Err(AskError::EmptyRange(item, name.clone()));
             }
@@ -59,7 +59,7 @@ impl Question {
         for ((item, input), value) in self.of(Role::Input).zip(values) {
             question = (question.hold(&input.name, *value)).map_err(|error| match error {
                 QuestionError::Contradiction { .. } => AskError::AlsoHeld(item, input.name.clone()),
-                error => item.named()(error),
+                error => AskError::Named(item, Box::new(error)),
             })?;
         }
         Ok(question)

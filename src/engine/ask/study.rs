@@ -159,8 +159,9 @@ impl Study {
                 varied.push(Varied::parameter(index, parameter));
                 continue;
             }
-            let (of, from) = (plain.value(name, from)).map_err(item.value(0).named())?;
-            let (_, to) = (plain.value(name, to)).map_err(item.value(1).named())?;
+            let (of, from) =
+                (plain.value(name, from)).map_err(item.value(0).wrong(AskError::Named))?;
+            let (_, to) = (plain.value(name, to)).map_err(item.value(1).wrong(AskError::Named))?;
             ranges.push(ScatteredPoints::Even(from, to));
             // what follows a joint is that joint
             let name = of.name(&mechanism);

@@ -280,28 +280,20 @@ impl Curve {
 
     /// The rows that tie the inputs together: each is where the segment has it.
     fn ties(&self, at: &Configuration<f64>) -> Vec<(f64, Vec<(usize, f64)>)> {
-        let part = self.part(at);
-        let measure = self.inputs.get(self.measure);
-        let others = self
-            .inputs
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| *i != self.measure);
-        others
-            .map(|(_, input)| {
-                let unit = self.unit(input.coordinate);
-                let wanted = input.from + part * (input.to - input.from);
-                let gap = self.gap(input.coordinate, at, wanted);
-                let mut slope = input.coordinate.slope_in(&self.system, at);
-                if let Some(measure) = measure {
-                    let ratio = (input.to - input.from) / unit * self.unit(measure.coordinate)
-                        / (measure.to - measure.from);
-                    let other = measure.coordinate.slope_in(&self.system, at);
-                    slope.extend(other.into_iter().map(|(c, s)| (c, -ratio * s)));
-                }
-                (gap, slope)
-            })
-            .collect()
+        let (part, mut ties) = (self.part(at), Vec::new());
+        for (i, input) in self.inputs.iter().enumerate() {
+            if i == self.measure {
+                continue;
+            }
+            let (of, measure) = (input.coordinate, &self.inputs[self.measure]);
+            let ratio = (input.to - input.from) / self.unit(of) * self.unit(measure.coordinate)
+                / (measure.to - measure.from);
+            let mut slope = of.slope_in(&self.system, at);
+            let other = measure.coordinate.slope_in(&self.system, at);
+            slope.extend(other.into_iter().map(|(c, s)| (c, -ratio * s)));
+            ties.push((self.gap(of, at, input.at(part)), slope));
+        }
+        ties
     }
 
     /// Distances of a configuration from a place, along its tangent and across it. Nothing allocates.
@@ -354,9 +346,7 @@ impl SolutionCurve for Curve {
     fn residual(&mut self, at: &Configuration<f64>) -> Vec<f64> {
         self.system.residual(at, &mut self.work);
         let mut residual = self.system.residual_of(&self.work).to_vec();
-        if self.inputs.len() > 1 {
-            residual.extend(self.ties(at).into_iter().map(|(gap, _)| gap));
-        }
+        residual.extend(self.ties(at).into_iter().map(|(gap, _)| gap));
         residual
     }
 
