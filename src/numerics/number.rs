@@ -200,6 +200,32 @@ macro_rules! functions {
 }
 pub(crate) use functions;
 
+/// The functions of a number with derivatives, each by its value and its derivative.
+macro_rules! chained {
+    () => {
+        #[inline]
+        fn sin_cos(self) -> (Self, Self) {
+            let (sin, cos) = self.value.sin_cos();
+            (self.chain(sin, cos), self.chain(cos, -sin))
+        }
+        functions!(|x|
+            sqrt: {
+                let root = x.value.sqrt();
+                x.chain(root, T::from_f64(0.5) / root)
+            },
+            asin: x.chain(x.value.asin(), T::one() / (T::one() - x.value * x.value).sqrt()),
+            acos: x.chain(x.value.acos(), -(T::one() / (T::one() - x.value * x.value).sqrt())),
+            atan: x.chain(x.value.atan(), T::one() / (T::one() + x.value * x.value)),
+            exp: {
+                let e = x.value.exp();
+                x.chain(e, e)
+            },
+            ln: x.chain(x.value.ln(), T::one() / x.value),
+        );
+    };
+}
+pub(crate) use chained;
+
 /// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
 ///
 /// A dual has the size of its value, so that every decision over duals is that over its inner number.

@@ -1,4 +1,4 @@
-use super::{Field, Number, functions, operators};
+use super::{Field, Number, chained, functions, operators};
 
 /// A value with its derivative along one direction: a + a′ε with ε² = 0 (Clifford 1873).
 ///
@@ -58,25 +58,7 @@ impl<T: Number> Number for Dual<T> {
     fn real(self) -> f64 {
         self.value.real()
     }
-    #[inline]
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.value.sin_cos();
-        (self.chain(sin, cos), self.chain(cos, -sin))
-    }
-    functions!(|x|
-        sqrt: {
-            let root = x.value.sqrt();
-            x.chain(root, T::from_f64(0.5) / root)
-        },
-        asin: x.chain(x.value.asin(), T::one() / (T::one() - x.value * x.value).sqrt()),
-        acos: x.chain(x.value.acos(), -(T::one() / (T::one() - x.value * x.value).sqrt())),
-        atan: x.chain(x.value.atan(), T::one() / (T::one() + x.value * x.value)),
-        exp: {
-            let e = x.value.exp();
-            x.chain(e, e)
-        },
-        ln: x.chain(x.value.ln(), T::one() / x.value),
-    );
+    chained!();
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let (y, r2) = (self, self.value * self.value + x.value * x.value);

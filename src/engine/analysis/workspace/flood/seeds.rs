@@ -4,7 +4,6 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::arrivals::Arrivals;
-use super::metric::Metric;
 use super::neighbour::Flood;
 use super::spread::GrowingSet;
 use super::step::{StepStart, Steps};
@@ -74,58 +73,60 @@ pub(crate) fn search_modes(
     (nodes, starts, seed): (&[usize], usize, u64),
     (given, watch): (&[Configuration<f64>], &Watch),
 ) -> ModeSeeds {
-    let (problem, grid, metric) = (fill.problem, fill.grid, fill.metric);
-    let plain = Steps::new(problem);
+    let (problem, grid) = (fill.problem, fill.grid);
+    let mut plain = Steps::new(problem);
     let found = each(nodes.len(), &plain, |steps, i| {
-        let node = nodes[i];
-        if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
-            return (node, Vec::new());
-        }
-        // each node draws for itself, so that threads do not matter
-        let mut rng = Pcg64Mcg::seed_from_u64(seed.wrapping_add(node as u64));
-        let values = grid.values(node);
-        let around = problem.at(&values).start();
-        let mut found: Vec<Configuration<f64>> = Vec::new();
-        for k in 0..starts {
-            let at = match k {
-                0 => around.clone(),
-                _ => random_configuration(problem.mechanism, &around, &mut rng),
-            };
-            let at = put_in(problem, &values, &at);
-            take(metric, steps, &values, at, &mut found);
-        }
-        (node, found)
+        let stops = watch.stops(Stage::Nodes, i, Some(nodes.len()));
+        let count = if stops { 0 } else { starts };
+        let seed = seed.wrapping_add(nodes[i] as u64);
+        solved(
+            fill,
+            steps,
+            nodes[i],
+            starts_at(fill, nodes[i], seed).take(count),
+        )
     });
-    let mut last = plain.clone();
     let here = given.iter().filter_map(|at| {
         let node = nearest(problem, grid, at)?;
-        let mut found = Vec::new();
-        let values = grid.values(node);
-        let at = put_in(problem, &values, at);
-        take(metric, &mut last, &values, at, &mut found);
-        Some((node, found))
+        let at = put_in(problem, &grid.values(node), at);
+        Some(solved(fill, &mut plain, node, std::iter::once(at)))
     });
     ModeSeeds::of(fill, found.into_iter().chain(here))
 }
 
-/// Adds what Newton's method finds from a start, if it is new.
-fn take(
-    metric: &Metric,
+/// The start of a question at a node, then random ones, with what is held there put in. Each node draws for itself, so that
+/// threads do not matter.
+fn starts_at(fill: &Flood, node: usize, seed: u64) -> impl Iterator<Item = Configuration<f64>> {
+    let (problem, values) = (fill.problem, fill.grid.values(node));
+    let around = problem.at(&values).start();
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let first = std::iter::once(around.clone());
+    let random = move || random_configuration(problem.mechanism, &around, &mut rng);
+    let all = first.chain(std::iter::repeat_with(random));
+    all.map(move |at| put_in(problem, &values, &at))
+}
+
+/// A node with what Newton's method finds from starts there, each once.
+fn solved(
+    fill: &Flood,
     steps: &mut Steps,
-    values: &[f64],
-    at: Configuration<f64>,
-    found: &mut Vec<Configuration<f64>>,
-) {
-    let Some(at) = steps.solved(at, values) else {
-        return;
-    };
-    let mut known = found.iter();
-    // where the mapped coordinates do not determine the motion, spreading cannot start
-    if !known.any(|known| metric.same(known.view(), at.view()))
-        && steps.indicators(&at, values).regular
-    {
-        found.push(at);
+    node: usize,
+    starts: impl Iterator<Item = Configuration<f64>>,
+) -> (usize, Vec<Configuration<f64>>) {
+    let values = fill.grid.values(node);
+    let mut found: Vec<Configuration<f64>> = Vec::new();
+    for start in starts {
+        let Some(at) = steps.solved(start, &values) else {
+            continue;
+        };
+        let mut known = found.iter();
+        let known = known.any(|known| fill.metric.same(known.view(), at.view()));
+        // where the mapped coordinates do not determine the motion, spreading cannot start
+        if !known && steps.indicators(&at, &values).regular {
+            found.push(at);
+        }
     }
+    (node, found)
 }
 
 /// A configuration with the held values of a node put in.
@@ -153,22 +154,15 @@ pub(crate) fn probe(
     (nodes, seed): (&[usize], u64),
     watch: &Watch,
 ) -> ModeSeeds {
-    let problem = fill.problem;
     let found = steps.each(nodes.len(), |steps, i| {
         let node = nodes[i];
         if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
             return (node, Vec::new());
         }
         // other numbers than those drawn above
-        let mut rng = Pcg64Mcg::seed_from_u64(!seed.wrapping_add(node as u64));
-        let values = fill.grid.values(node);
-        let around = problem.at(&values).start();
-        let drawn: Vec<Configuration<f64>> = (0..PROBES)
-            .map(|_| {
-                let at = random_configuration(problem.mechanism, &around, &mut rng);
-                put_in(problem, &values, &at)
-            })
-            .collect();
+        let seed = !seed.wrapping_add(node as u64);
+        let drawn = starts_at(fill, node, seed).skip(1).take(PROBES);
+        let drawn: Vec<Configuration<f64>> = drawn.collect();
         let anywhere = |at| StepStart {
             reach: f64::INFINITY,
             ..fill.here(node, at)
