@@ -152,7 +152,7 @@ pub struct FirstOrderOnly {
 
 /// Accuracy of rates and accelerations. Near a singular configuration the rounding left in the closures may displace
 /// the mechanism far along the direction in which they hardly resist.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Accuracy {
     /// The smallest singular value of the dimensionless closure equations with what is held, of

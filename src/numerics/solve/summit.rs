@@ -30,6 +30,19 @@ pub fn edge(from: f64, to: f64, mut height: impl FnMut(f64) -> Option<f64>) -> O
     Some(section.best())
 }
 
+/// The two neighbouring places between which a condition that holds at the first of two places and not at the second ceases
+/// to hold, by sixty halvings.
+pub fn halved([mut from, mut to]: [f64; 2], mut holds: impl FnMut(f64) -> bool) -> [f64; 2] {
+    for _ in 0..60 {
+        let middle = 0.5 * (from + to);
+        match holds(middle) {
+            true => from = middle,
+            false => to = middle,
+        }
+    }
+    [from, to]
+}
+
 /// A golden section: the maximum lies between the ends, and two heights between them are known.
 struct GoldenSection {
     low: f64,

@@ -1,6 +1,7 @@
 //! Means of quantities over the time of a motion.
 
 use super::course::{Course, Sought};
+use crate::solve::halved;
 
 /// Means over the time of a motion, and the swing of the integral.
 #[derive(Clone, Copy, Debug)]
@@ -78,15 +79,8 @@ pub(super) fn means(course: &Course, of: &Sought) -> Option<Means> {
         if let (Some(a), Some(b)) = (off(from), off(to))
             && a * b < 0.0
         {
-            let (mut low, mut high) = (from, to);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                match off(middle).is_some_and(|x| x * a > 0.0) {
-                    true => low = middle,
-                    false => high = middle,
-                }
-            }
-            let turning = gathered + to_there(low)?;
+            let [turn, _] = halved([from, to], |s| off(s).is_some_and(|x| x * a > 0.0));
+            let turning = gathered + to_there(turn)?;
             (least, most) = (least.min(turning), most.max(turning));
         }
         gathered += to_there(to)?;

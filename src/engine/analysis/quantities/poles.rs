@@ -1,6 +1,8 @@
 //! Places where a quantity has no bound.
 
 use crate::number::real;
+use crate::solve::halved;
+
 /// Sides towards which a quantity grows without bound, just before a place and just after it: true upwards.
 ///
 /// A power of the distance r⁻ᵖ with p ≥ 1/4 grows by the same factor, 10^(p/2) at least, each time the place is nearer by
@@ -53,18 +55,10 @@ pub(super) fn change_of_sign(
 /// The middle of the places about one without a value that have none either.
 pub(super) fn middle_of_gap(gap: f64, value: &mut dyn FnMut(f64) -> Option<f64>) -> f64 {
     let ends = [0.0, 1.0].map(|end| {
-        let (mut known, mut unknown) = (end, gap);
         if value(end).is_none() {
             return gap;
         }
-        for _ in 0..50 {
-            let middle = 0.5 * (known + unknown);
-            match value(middle) {
-                Some(_) => known = middle,
-                None => unknown = middle,
-            }
-        }
-        unknown
+        halved([end, gap], |place| value(place).is_some())[1]
     });
     0.5 * (ends[0] + ends[1])
 }

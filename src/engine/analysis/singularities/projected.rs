@@ -44,10 +44,7 @@ impl<'t> Projection<'t> {
         singularity: &Singularity,
     ) -> Projection<'t> {
         let mechanism = region.mechanism;
-        let scales = [0, 1].map(|k| match region.sides[k].coordinate.is_angle(mechanism) {
-            true => 1.0,
-            false => mechanism.characteristic_length(),
-        });
+        let scales = [0, 1].map(|k| region.sides[k].coordinate.scale(mechanism));
         let points = traced.places.iter();
         let points: Vec<[f64; 2]> = points.map(|p| scaled(region, scales, p)).collect();
         Projection {

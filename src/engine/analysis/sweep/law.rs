@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::words;
 use crate::number::Number;
+use crate::solve::halved;
 
 words! {
     /// The way from 0 to 1 of a part s of the segment over a part u of the time.
@@ -78,18 +79,7 @@ impl Law {
         if self == Law::Constant {
             return s;
         }
-        let (mut low, mut high) = (0.0, 1.0);
-        // halved until two neighbouring numbers are left
-        for _ in 0..1100 {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            match self.at(middle)[0] < s {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
+        let [low, high] = halved([0.0, 1.0], |u| self.at(u)[0] < s);
         0.5 * (low + high)
     }
 }

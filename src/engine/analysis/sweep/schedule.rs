@@ -7,7 +7,7 @@ use super::{
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::sorting::sort_by;
 use crate::number::tolerance::{ROUNDING, SAME};
-use crate::solve::Watch;
+use crate::solve::{Watch, halved};
 use crate::system::{Driven, Held};
 
 /// Inputs that go through given values at given times by natural cubic splines: their rates and accelerations are
@@ -175,7 +175,8 @@ impl Schedule {
                         let wanted = of.coordinate.of(mechanism, row.configuration);
                         let before =
                             |time: f64| (self.at(i, time)[0] < wanted) == (of.from < of.to);
-                        halved([gone, to], before)
+                        let [before, after] = halved([gone, to], before);
+                        0.5 * (before + after)
                     }
                     None if ends => to,
                     None => gone,
@@ -222,18 +223,6 @@ impl Schedule {
         }
         whole
     }
-}
-
-/// The place where something ceases to hold between two numbers.
-fn halved([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        match holds(middle) {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// Adds what was met on paths in one step; what was passed before is the same point. Paths that cross in different

@@ -31,12 +31,7 @@ pub(super) fn of(
     drive: &Drive,
 ) -> Accuracy {
     let Some((_, direction)) = rest.decomposition.weakest() else {
-        return Accuracy {
-            smallest_singular_value: None,
-            configuration: 0.0,
-            rates: 0.0,
-            accelerations: 0.0,
-        };
+        return Accuracy::default();
     };
     let smallest = rest.decomposition.smallest();
     let off = held.residual(&rest.at).max(EXACT) / smallest;

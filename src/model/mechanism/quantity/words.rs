@@ -3,9 +3,10 @@
 use crate::algebra::{SiUnit, words};
 
 /// Order of differentiation by time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Order {
     /// The coordinate itself.
+    #[default]
     Value,
     /// Its rate.
     Velocity,

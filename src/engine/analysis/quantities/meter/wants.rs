@@ -3,7 +3,7 @@
 use crate::mechanism::{Figure, Measured, Order, Point};
 
 /// Ingredients of quantities besides positions.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Wants {
     pub order: Order,
     pub forces: bool,
@@ -17,16 +17,7 @@ pub(super) struct Wants {
 
 impl Wants {
     pub fn of<'m>(measured: impl Iterator<Item = &'m Measured>) -> Self {
-        let mut wants = Wants {
-            order: Order::Value,
-            forces: false,
-            reactions: false,
-            transmission: false,
-            jacobian: false,
-            determinant: false,
-            singular_values: false,
-            distances: false,
-        };
+        let mut wants = Wants::default();
         for measured in measured {
             match measured {
                 Measured::Parameter(_) | Measured::Time | Measured::Work(_) => {}

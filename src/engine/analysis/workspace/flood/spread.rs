@@ -12,6 +12,7 @@ use crate::mechanism::ConfigurationRef;
 pub(crate) type GridTask = (usize, usize);
 
 /// Solutions reached so far, and the steps that remain.
+#[derive(Default)]
 pub(crate) struct GrowingSet {
     solutions: Vec<NodeSolution>,
     at: Configurations,
@@ -31,14 +32,8 @@ pub(crate) struct GrowingSet {
 impl GrowingSet {
     pub fn new(grid: &Grid) -> Self {
         GrowingSet {
-            solutions: Vec::new(),
-            at: Configurations::default(),
-            motions: Vec::new(),
             last: vec![None; grid.len()],
-            before: Vec::new(),
-            roots: Vec::new(),
-            front: Vec::new(),
-            unsure: Vec::new(),
+            ..GrowingSet::default()
         }
     }
 
