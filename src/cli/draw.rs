@@ -68,6 +68,9 @@ pub struct Draw {
     /// Draw the axes of freedoms gained at a singular configuration
     #[arg(long)]
     screws: bool,
+    /// Draw the forces, also where only those of the file act
+    #[arg(long = "forces")]
+    with_forces: bool,
     #[command(flatten)]
     forces: Forces,
     #[command(flatten)]
@@ -189,7 +192,7 @@ impl Draw {
                 scene = scene.with_gained(&report);
             }
         }
-        if self.forces.are_given()
+        if (self.with_forces || self.forces.are_given())
             && let Some(report) = posed.ask_of(&loaded, Question::statics)?.closed()
         {
             if !report.balanced {

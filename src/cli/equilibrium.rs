@@ -2,10 +2,14 @@
 
 use clap::Args;
 use linkwork::analysis::equilibrium::EquilibriumSettings;
-use linkwork::ask::{Question, Role};
+use linkwork::ask::Role;
+use linkwork::output::drawing::sheet;
+use linkwork::output::equilibrium::panels;
+use linkwork::system::Analysed;
 
 use super::asked::{Analysis, Forces, Posed};
 use super::format::Format;
+use super::pictures::Pictures;
 use super::search::seed;
 use super::{Answer, Refusal};
 
@@ -33,6 +37,8 @@ pub struct EquilibriumArguments {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = EquilibriumSettings::default().seed)]
     seed: u64,
+    #[command(flatten)]
+    pictures: Pictures,
 }
 
 impl Analysis for EquilibriumArguments {
@@ -46,8 +52,14 @@ impl Analysis for EquilibriumArguments {
             seed: self.seed,
             ..EquilibriumSettings::default()
         };
-        posed.answer(format, |question: &Question, watch| {
-            question.equilibrium(&settings, watch)
-        })
+        let report = posed.ask(|question, watch| question.equilibrium(&settings, watch))?;
+        if let Analysed::Closed(report) = &report {
+            let mechanism = posed.question.mechanism();
+            self.pictures.keep(
+                || sheet(&panels(mechanism, report, false), &self.pictures.settings()),
+                || panels(mechanism, report, true),
+            )?;
+        }
+        posed.loaded.answer(format, &report)
     }
 }

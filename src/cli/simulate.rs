@@ -3,9 +3,12 @@
 use clap::Args;
 use linkwork::analysis::simulation::SimulationSettings;
 use linkwork::ask::Role;
+use linkwork::output::sweep::Picture;
+use linkwork::system::Analysed;
 
 use super::asked::{Analysis, Forces, Posed};
 use super::format::Format;
+use super::pictures::Pictures;
 use super::source::Assignment;
 use super::{Answer, Refusal};
 
@@ -53,6 +56,8 @@ pub struct Simulate {
     #[arg(long, value_name = "ERROR", default_value_t = SimulationSettings::default().tolerance)]
     #[arg(value_parser = |text: &str| within(text, 1e-14, 1e-2), allow_negative_numbers = true)]
     error: f64,
+    #[command(flatten)]
+    pictures: Pictures,
 }
 
 impl Analysis for Simulate {
@@ -72,9 +77,16 @@ impl Analysis for Simulate {
             linearised: self.linearise,
             ..SimulationSettings::default()
         };
-        posed.answer(format, |question, watch| {
-            question.simulation(&settings, watch)
-        })
+        let report = posed.ask(|question, watch| question.simulation(&settings, watch))?;
+        if let Analysed::Closed(report) = &report {
+            let mechanism = posed.question.mechanism();
+            let picture = || Picture::of_simulation(mechanism, &self.point, report);
+            self.pictures.keep(
+                || picture().drawn(mechanism, self.pictures.view),
+                || picture().panels_moving(mechanism),
+            )?;
+        }
+        posed.loaded.answer(format, &report)
     }
 }
 

@@ -8,22 +8,19 @@ use linkwork::analysis::sweep::{Law, Pace, Row, SweepSettings};
 use linkwork::ask::{Mode, Question, Role};
 use linkwork::description::MAX_BYTES;
 use linkwork::output::Report;
-use linkwork::output::canvas::gif;
 use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
-use linkwork::output::drawing::{DrawingSettings, Panel, Viewpoint, frames};
-use linkwork::output::glb::glb;
 use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, sentence};
 
 use super::asked::{Analysis, Forces, Posed};
 use super::format::Format;
-use super::pictures::{LASTS, keep, view};
+use super::pictures::Pictures;
 use super::read::{called, text};
 use super::search::{SearchArgs, mode};
 use super::source::Assignment;
 use super::watched::watched;
 use super::words;
-use super::written::{StdoutLines, file, save, unwritten};
+use super::written::{StdoutLines, unwritten};
 use super::{Answer, Refusal, lines};
 
 /// Move the inputs through their ranges: positions, rates, forces and other quantities; never switches branch silently.
@@ -102,22 +99,8 @@ pub struct Sweep {
     forces: Forces,
     #[command(flatten)]
     search: SearchArgs,
-    /// Draw the mechanism in several places with the traced paths, then the quantities or else the joints over the input,
-    /// to a file
-    #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
-    svg: Option<PathBuf>,
-    /// Write the same picture as PNG, at twice the resolution of the SVG
-    #[arg(long, value_name = "FILE", value_parser = file(&["png"]))]
-    png: Option<PathBuf>,
-    /// Draw the mechanism moving, as an animated GIF of 4 s, there and back if the motion does not close
-    #[arg(long, value_name = "FILE", value_parser = file(&["gif"]))]
-    animate: Option<PathBuf>,
-    /// Write the mechanism moving as a GLB solid for Blender, presentations and model viewers
-    #[arg(long, value_name = "FILE", value_parser = file(&["glb"]))]
-    glb: Option<PathBuf>,
-    /// Viewpoint: iso, front, top, or azimuth and elevation in degrees, e.g. --view 30,20
-    #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
-    view: Option<Viewpoint>,
+    #[command(flatten)]
+    pictures: Pictures,
 }
 
 fn law() -> impl clap::builder::TypedValueParser<Value = Law> {
@@ -165,33 +148,12 @@ impl Sweep {
         posed.loaded.answer(format, &report)
     }
 
-    fn is_drawn(&self) -> bool {
-        let files = [&self.svg, &self.png, &self.animate, &self.glb];
-        files.into_iter().any(Option::is_some)
-    }
-
     fn keep(&self, posed: &Posed, picture: &Picture) -> Result<(), Refusal> {
         let mechanism = posed.question.mechanism();
-        let drawn = || picture.drawn(mechanism, self.view);
-        keep(self.svg.as_deref(), || drawn().svg().into_bytes())?;
-        keep(self.png.as_deref(), || drawn().png())?;
-        let places = || picture.scenes(mechanism).into_iter();
-        keep(self.glb.as_deref(), || {
-            glb(&places().map(|(_, scene)| scene).collect::<Vec<_>>(), LASTS)
-        })?;
-        let Some(path) = &self.animate else {
-            return Ok(());
-        };
-        let panel = |(mode, scene)| Panel::new(mechanism.name(), mode, scene);
-        let panels: Vec<Panel> = places().map(panel).collect();
-        let settings = DrawingSettings {
-            view: self.view.unwrap_or_default(),
-            labels: false,
-        };
-        let hundredths = (100.0 * LASTS / panels.len().max(1) as f64).round() as u16;
-        let moving = gif(&frames(&panels, &settings), hundredths.max(2));
-        let said = |error| format!("{} cannot be written: {error}", path.display());
-        save(path, &moving.map_err(|error| Refusal::error(said(error)))?)
+        self.pictures.keep(
+            || picture.drawn(mechanism, self.pictures.view),
+            || picture.panels_moving(mechanism),
+        )
     }
 
     fn moved(&self, posed: &Posed, format: Format) -> Result<Answer, Refusal> {
@@ -207,7 +169,7 @@ impl Sweep {
             },
             straightness: self.straight,
             certify: self.certify,
-            between: self.is_drawn(),
+            between: self.pictures.are_wanted(),
             ..SweepSettings::default()
         };
         let all = posed.ask(|question, watch| question.motions(&settings, watch))?;
@@ -217,7 +179,7 @@ impl Sweep {
         let out = StdoutLines::new(format == Format::Csv);
         let mut csv = Csv::new(out, row_columns(&columns)).map_err(unwritten)?;
         let mut sink = |mode: Option<usize>, row: &Row| {
-            if self.is_drawn() {
+            if self.pictures.are_wanted() {
                 picture.take(mechanism, mode, row);
             }
             if format == Format::Csv && !row.between {

@@ -638,6 +638,31 @@ fn friction_holds_a_pendulum_where_it_turns_back() {
     assert!(report.energy.error < 1e-8, "{:?}", report.energy);
 }
 
+/// A block of 2 kg pushed back by 5 N against a stop of 2000 N/m with 20 N·s/m: free flight, then the closed equations of
+/// each part integrated by scipy (DOP853 to 1e-12). The stop neither damps before it is touched nor pulls as it is left.
+#[test]
+fn a_stop_damps_only_while_it_is_touched() {
+    let block = question(
+        r#"Axes(version: 1, name: "block",
+            joints: { "s": Prismatic(point: (0, 0, 0), direction: (1, 0, 0), between: ("ground", "block"), role: Actuated) },
+            points: { "m": (body: "block", at: (0, 0, 0)) }, masses: { "m": (mass: 2) },
+            loads: {
+                "stop": Spring(joint: "s", stiffness: 2000, rest: 0.1, damping: 20, compression_only: true),
+                "push": Force(joint: "s", force: -5),
+            })"#,
+    );
+    let report = let_go(&block.hold("s", 0.3), 0.7, 14);
+    for (time, place) in [
+        (0.4, 0.1),
+        (0.45, 0.07288989),
+        (0.5, 0.09562015),
+        (0.6, 0.14410371),
+        (0.7, 0.16758727),
+    ] {
+        near(&at(&report, time, &["s"]), &[place], 1e-7);
+    }
+}
+
 #[test]
 fn a_block_sticks_until_it_is_pushed_hard_enough() {
     // 2 kg pushed by 2 N/s·t against 5 N: it slips after 2.5 s, and then x = (t − 2.5)³/6
@@ -889,6 +914,10 @@ fn rest_positions_of_a_pendulum_and_what_has_none() {
         rest(&rod.clone().lock("pin"), false).none,
         Some(NoRest::Structure)
     );
+    let falling = r#"Axes(version: 1, name: "stone", gravity: (0, -9.81, 0),
+        joints: { "s": Prismatic(point: (0, 0, 0), direction: (0, 1, 0), between: ("ground", "stone"), role: Actuated) },
+        points: { "m": (body: "stone", at: (0, 0, 0)) }, masses: { "m": (mass: 1) })"#;
+    assert_eq!(rest(&question(falling), false).none, Some(NoRest::Endless));
     let massless = let_go(&pendulum(""), 1.0, 2);
     assert_eq!(
         massless.end,

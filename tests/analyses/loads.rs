@@ -855,6 +855,13 @@ fn wrong_masses_and_springs_are_refused_where_they_stand() {
         "q",
         "`q` is neither",
     );
+    let force = r#"loads: { "s": Force(joint: "theta1", force: 3) }, gravity:"#;
+    let problems = Mechanism::problems(&FOUR_BAR.replace("gravity:", force));
+    let title = problems[0].kind.title();
+    assert!(
+        title.contains("needs `moment`, as its joint turns"),
+        "{title}"
+    );
 }
 
 #[test]

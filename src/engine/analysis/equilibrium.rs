@@ -80,6 +80,9 @@ pub struct EquilibriumReport {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RestPosition {
+    /// The configuration.
+    #[serde(skip)]
+    pub place: Option<Configuration<f64>>,
     /// Values of the joints, in rad and m.
     pub joints: Named<f64>,
     /// Poses of the platforms.

@@ -259,7 +259,15 @@ impl<T: Number> Loaded<T> {
                 false => kept * out,
             };
             let effort = match (spring.damping > 0.0, rate) {
-                (true, Some(rate)) => one_way(elastic + rate.scale(spring.damping)),
+                (true, Some(rate)) => {
+                    let damped = one_way(elastic + rate.scale(spring.damping));
+                    // a slack rope has no damping, but one-way dampers have no other force
+                    let any = spring.stiffness > 0.0 || spring.preload != 0.0;
+                    match spring.only.filter(|_| any) {
+                        Some(sign) => T::zero().if_less(elastic.scale(sign), damped, T::zero()),
+                        None => damped,
+                    }
+                }
                 _ => kept,
             };
             let rate = rate.unwrap_or(T::zero());

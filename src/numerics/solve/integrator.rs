@@ -289,8 +289,11 @@ fn explicit(tolerance: f64, step: f64, _: usize) -> Box<dyn Method> {
 
 fn implicit(tolerance: f64, step: f64, size: usize) -> Box<dyn Method> {
     match size {
-        ..=8 => implicit_over::<8>(tolerance, step, size),
-        9..=64 => implicit_over::<64>(tolerance, step, size),
+        // the work supplied and twice as many numbers as freedoms
+        ..=5 => implicit_over::<5>(tolerance, step, size),
+        6..=9 => implicit_over::<9>(tolerance, step, size),
+        10..=17 => implicit_over::<17>(tolerance, step, size),
+        18..=64 => implicit_over::<64>(tolerance, step, size),
         _ => explicit(tolerance, step, size),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table};
+use super::drawing::Panel;
 use super::quantity::{bound, if_any, number, quantity};
 use super::report::Report;
 use super::statics::EFFORTS;
@@ -10,6 +11,8 @@ use crate::analysis::equilibrium::{
     AllRest, EquilibriumReport, NaturalMode, NoRest, RestPosition, Stability, Stiffness,
 };
 use crate::description::{count, listed};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::scene::Scene;
 use crate::system::NotAlgebraic;
 
 impl Report for EquilibriumReport {
@@ -174,12 +177,68 @@ fn position(report: &EquilibriumReport, of: &RestPosition, section: Section) -> 
         .fold(section, |section, of| section.section(matrix(of)))
 }
 
-fn modes(modes: &[NaturalMode], unit: impl Fn(&str) -> SiUnit) -> Section {
-    let pace = |mode: &NaturalMode| match (mode.frequency, mode.departure) {
+/// The frequency of an oscillation, or how fast the position is left.
+fn pace(mode: &NaturalMode) -> String {
+    match (mode.frequency, mode.departure) {
         (Some(frequency), _) => format!("{} Hz", number(frequency)),
         (None, Some(rate)) => format!("departs at {} 1/s", number(rate)),
         (None, None) => String::new(),
-    };
+    }
+}
+
+/// Pictures of rest positions with their oscillations: all of a single position, of several the slowest of each. The places
+/// between the ends of an oscillation are ghosts; `moving` gives them one after the other, there and back.
+pub fn panels(mechanism: &Mechanism, report: &EquilibriumReport, moving: bool) -> Vec<Panel> {
+    let several = report.positions.len() > 1;
+    let mut panels = Vec::new();
+    for (i, position) in report.positions.iter().enumerate() {
+        let named = match several {
+            true => format!("{}: {}", i + 1, stability(position)),
+            false => stability(position),
+        };
+        let scene = |at: &Configuration<f64>| Scene::of(mechanism, at);
+        let panel = |title: String, at: &Configuration<f64>, ghosts| Panel {
+            ghosts,
+            ..Panel::new(&title, None, scene(at))
+        };
+        let shown = if several { 1 } else { position.modes.len() };
+        for mode in position.modes.iter().take(shown) {
+            let title = || format!("{named}, {}", pace(mode));
+            match (&mode.swing[..], moving) {
+                ([], _) => {}
+                (all, true) => {
+                    let back = all[1..all.len() - 1].iter().rev();
+                    panels.extend(
+                        all.iter()
+                            .chain(back)
+                            .map(|at| panel(title(), at, Vec::new())),
+                    );
+                }
+                ([first, .., last], false) => {
+                    let ghosts = vec![scene(first), scene(last)];
+                    panels.extend(
+                        position
+                            .place
+                            .iter()
+                            .map(|at| panel(title(), at, ghosts.clone())),
+                    );
+                }
+                _ => {}
+            }
+        }
+        if position.modes.is_empty() {
+            panels.extend(
+                position
+                    .place
+                    .iter()
+                    .map(|at| panel(named.clone(), at, Vec::new())),
+            );
+        }
+    }
+    panels
+}
+
+fn modes(modes: &[NaturalMode], unit: impl Fn(&str) -> SiUnit) -> Section {
     let shape = |mode: &NaturalMode| {
         let parts = mode.shape.0.iter().filter(|(_, x)| x.abs() > 1e-6);
         let parts = parts.map(|(name, x)| format!("{name} {}", quantity(*x, unit(name))));

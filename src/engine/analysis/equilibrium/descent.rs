@@ -68,8 +68,9 @@ pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
 pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
     const STEPS: usize = 60;
     const LONGEST: f64 = 0.3;
-    /// A step shorter than this arrives.
+    /// A step shorter than this arrives, if no more than this part of the forces that act is left.
     const ARRIVED: f64 = 1e-11;
+    const LEFT: f64 = 1e-6;
     for _ in 0..STEPS {
         let (forces, _) = dynamics.at_rest()?;
         dynamics.stand();
@@ -92,7 +93,10 @@ pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
         }
         dynamics.stand();
         if long < ARRIVED {
-            return Ok(());
+            // where the energy falls evenly no step leads anywhere
+            let left = norm(&scaled(&forces, &units));
+            let rests = left <= LEFT * dynamics.size();
+            return rests.then_some(()).ok_or(NoRest::Endless);
         }
         let still = vec![0.0; free];
         dynamics.choose(&still)?;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{NoRest, RestPosition, descent};
 use crate::linear::add;
-use crate::mechanism::{Mechanism, turn_near};
+use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::system::{Dynamics, Named, PlatformRecord};
 
 /// Stability of a rest position.
@@ -39,6 +39,10 @@ pub struct NaturalMode {
     pub departure: Option<f64>,
     /// Amplitudes of the joints, in rad and m, for the largest of all dimensionless amplitudes one.
     pub shape: Named<f64>,
+    /// Assembled configurations from one end of it to the other, the rest position in the middle, where the largest of all
+    /// dimensionless amplitudes is 0.2.
+    #[serde(skip)]
+    pub swing: Vec<Configuration<f64>>,
 }
 
 /// Compliance and stiffness of a platform about its origin along the axes of ground: displacement and turn for force and
@@ -79,6 +83,7 @@ pub(super) fn position(
         (0, directions) => Stability::Undecided { directions },
         (directions, _) => Stability::Unstable { directions },
     };
+    let modes = modes(mechanism, dynamics, (&hessian, &mass), flat);
     let at = dynamics.configuration();
     let platforms = mechanism.platforms().iter().enumerate();
     let platforms = platforms.map(|(i, platform)| {
@@ -86,12 +91,13 @@ pub(super) fn position(
         (platform.name.clone(), PlatformRecord::of(&pose))
     });
     Ok(RestPosition {
+        place: Some(at.clone()),
         joints: mechanism.named_joints(&turned(mechanism, &at.joints)),
         platforms: platforms.collect(),
         potential,
         left,
         stability,
-        modes: modes(mechanism, dynamics, (&hessian, &mass), flat),
+        modes,
         stiffness: match stability {
             Stability::Stable => stiffness(mechanism, dynamics, &hessian),
             _ => Vec::new(),
@@ -116,7 +122,7 @@ fn turned(mechanism: &Mechanism, joints: &[f64]) -> Vec<f64> {
 /// no more than `flat` for its largest dimensionless amplitude ω is 0.
 fn modes(
     mechanism: &Mechanism,
-    dynamics: &Dynamics,
+    dynamics: &mut Dynamics,
     (hessian, mass): (&[f64], &[f64]),
     flat: f64,
 ) -> Vec<NaturalMode> {
@@ -133,6 +139,7 @@ fn modes(
     let eigen = (&inverse * hessian * inverse.transpose()).symmetric_eigen();
     let mut order: Vec<usize> = (0..free).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let base = dynamics.values(dynamics.base());
     let mode = |i: usize| {
         let amplitudes = inverse.transpose() * eigen.eigenvectors.column(i);
         let sizes = amplitudes
@@ -145,17 +152,37 @@ fn modes(
             square if square.abs() <= flat * largest * largest => 0.0,
             square => square,
         };
+        let (all, far) = spread(dynamics, amplitudes.as_slice());
         NaturalMode {
             frequency: (square >= 0.0).then(|| square.sqrt() / TAU),
             departure: (square < 0.0).then(|| (-square).sqrt()),
-            shape: shape(mechanism, dynamics, amplitudes.as_slice()),
+            shape: shape(mechanism, &all, far),
+            swing: swing(dynamics, &base, amplitudes.as_slice(), far),
         }
     };
-    order.into_iter().map(mode).collect()
+    let modes = order.into_iter().map(mode).collect();
+    dynamics.close(&base);
+    modes
 }
 
-/// Amplitudes of all joints for those of the independent coordinates.
-fn shape(mechanism: &Mechanism, dynamics: &Dynamics, amplitudes: &[f64]) -> Named<f64> {
+/// Configurations of an oscillation, from end to end.
+fn swing(
+    dynamics: &mut Dynamics,
+    base: &[f64],
+    amplitudes: &[f64],
+    far: f64,
+) -> Vec<Configuration<f64>> {
+    const WIDE: f64 = 0.2;
+    let place = |k: i32| {
+        let mut to = base.to_vec();
+        add(&mut to, WIDE * f64::from(k) / (4.0 * far), amplitudes);
+        (dynamics.close(&to)).then(|| dynamics.configuration().clone())
+    };
+    (-4..=4).filter_map(place).collect()
+}
+
+/// Amplitudes of all unknowns for those of the independent coordinates, and the largest.
+fn spread(dynamics: &Dynamics, amplitudes: &[f64]) -> (Vec<f64>, f64) {
     let unknowns = dynamics.responses().first().map_or(0, Vec::len);
     let mut all = vec![0.0; unknowns];
     for (response, amplitude) in dynamics.responses().iter().zip(amplitudes) {
@@ -166,8 +193,13 @@ fn shape(mechanism: &Mechanism, dynamics: &Dynamics, amplitudes: &[f64]) -> Name
         0.0,
         |most: f64, x| if x.abs() > most.abs() { *x } else { most },
     );
+    (all, largest)
+}
+
+/// Amplitudes of the joints, that of the largest of all unknowns one.
+fn shape(mechanism: &Mechanism, all: &[f64], largest: f64) -> Named<f64> {
     let scales = &mechanism.dimensions().joint_scales;
-    let joints = mechanism.joints().iter().zip(scales).zip(&all);
+    let joints = mechanism.joints().iter().zip(scales).zip(all);
     joints
         .map(|((joint, scale), x)| (joint.name.clone(), x * scale / largest))
         .collect()

@@ -40,7 +40,10 @@ pub enum LoadProblem {
 }
 
 fn listed(moments: [f64; 3]) -> String {
-    let shown = moments.map(|x| format!("{x:.4e}"));
+    let shown = moments.map(|x| {
+        let rounded = format!("{x:.4e}").parse::<f64>();
+        rounded.unwrap_or(x).to_string()
+    });
     format!("{} kg·m²", shown.join(", "))
 }
 

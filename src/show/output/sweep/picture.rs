@@ -4,8 +4,10 @@ mod charts;
 
 use super::course::DrawnCourse;
 use crate::algebra::SiUnit;
+use crate::analysis::simulation::SimulationReport;
 use crate::analysis::sweep::{CircuitsReport, MetKind, MotionsReport, Row, Thinned};
-use crate::mechanism::{Configuration, Mechanism, NamedPoint, Variable};
+use crate::mechanism::{Configuration, Mechanism, NamedPoint, Point, Variable};
+use crate::output::drawing::Panel;
 use crate::output::plot;
 use crate::output::quantity;
 use crate::scene::{Scene, Triple};
@@ -130,6 +132,45 @@ impl Picture {
         picture
     }
 
+    /// Picture of a motion by itself: joints, forces of drives and energies over the time.
+    pub fn of_simulation(
+        mechanism: &Mechanism,
+        points: &[String],
+        report: &SimulationReport,
+    ) -> Self {
+        let read = points.iter().filter_map(|name| {
+            let point = Point::read(mechanism, name).ok()?;
+            Some(NamedPoint {
+                name: name.clone(),
+                point,
+            })
+        });
+        let points: Vec<NamedPoint> = read.collect();
+        let first = 1 + 2 * mechanism.joints().len() + 6 * mechanism.platforms().len();
+        let after = first + 3 * points.len();
+        let joints = (1..=mechanism.joints().len()).map(|i| 2 * i - 1);
+        let drawn: Vec<usize> = joints.chain(after..report.columns.len()).collect();
+        let variable = |&i: &usize| Variable::new(&report.columns[i].name, report.columns[i].unit);
+        let quantities: Vec<Variable> = drawn.iter().map(variable).collect();
+        let mut picture = Picture::new(mechanism, &[], &points, &quantities);
+        picture.outputs.clear();
+        picture.input_label = plot::label("time", SiUnit::SECOND);
+        let rows = report.rows.iter().map(|row| {
+            let quantities = drawn
+                .iter()
+                .map(|&i| quantity::shown(row[i], report.columns[i].unit));
+            (row[..1].iter().chain(&row[first..after]).copied())
+                .chain(quantities)
+                .collect()
+        });
+        picture.motions = vec![Drawn::new(None, rows.collect())];
+        report
+            .configurations
+            .iter()
+            .for_each(|at| picture.course.take(None, at));
+        picture
+    }
+
     /// The mechanism from place to place with the paths of its points, mode after mode, with the numbers of the modes;
     /// there and back again where a motion does not end where it began.
     pub fn scenes(&self, mechanism: &Mechanism) -> Vec<(Option<usize>, Scene)> {
@@ -146,6 +187,12 @@ impl Picture {
             }
         }
         scenes
+    }
+
+    /// The same places as pictures.
+    pub fn panels_moving(&self, mechanism: &Mechanism) -> Vec<Panel> {
+        let panel = |(mode, scene)| Panel::new(mechanism.name(), mode, scene);
+        self.scenes(mechanism).into_iter().map(panel).collect()
     }
 
     /// Also marks where paths cross themselves, and breaks curves where they have no bound.

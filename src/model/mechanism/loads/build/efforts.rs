@@ -2,6 +2,21 @@
 
 use super::*;
 
+/// The field of an effort of this unit, and the field of the other.
+fn effort_fields(unit: SiUnit) -> [&'static str; 2] {
+    match unit == SiUnit::NEWTON_METRE {
+        true => ["moment", "force"],
+        false => ["force", "moment"],
+    }
+}
+
+fn needed(unit: SiUnit) -> &'static str {
+    match unit == SiUnit::NEWTON_METRE {
+        true => "`moment`, as its joint turns",
+        false => "`force`, as it acts along a line",
+    }
+}
+
 impl Reading<'_> {
     pub(super) fn spring(
         &mut self,
@@ -76,17 +91,16 @@ impl Reading<'_> {
         let Some(LoadField::Name(at)) = file.field("at") else {
             let along = self.along(name, file)?;
             let [_, effort] = self.units(&along);
-            let value = match (file.field("force"), file.field("moment")) {
-                (Some(LoadField::Entry(entry)), None) | (None, Some(LoadField::Entry(entry))) => {
-                    match table {
-                        // its values may be pressures, say: the product is the force
-                        Some(_) => self.argument(entry),
-                        None => self.given(entry, effort),
-                    }
-                }
+            let [wanted, other] = effort_fields(effort);
+            let value = match (file.field(wanted), file.field(other)) {
+                (Some(LoadField::Entry(entry)), None) => match table {
+                    // its values may be pressures, say: the product is the force
+                    Some(_) => self.argument(entry),
+                    None => self.given(entry, effort),
+                },
                 (None, None) if table.is_some() => Some(Expression::number(1.0)),
                 _ => {
-                    let (name, fields) = (owned.clone(), "`force`, or `moment` at a hinge");
+                    let (name, fields) = (owned.clone(), needed(effort));
                     self.note(LoadProblem::Needs { name, fields }, &file.span);
                     None
                 }
@@ -143,7 +157,8 @@ impl Reading<'_> {
         };
         let [_, effort] = self.units(&Along::Joint(joint));
         let turns = self.mechanism.joints()[joint].kind.is_angle();
-        let constant = file.field("force").or(file.field("moment"));
+        let [wanted, other] = effort_fields(effort);
+        let constant = file.field(wanted);
         let mut entry = |field: Option<&LoadField>, unit, what| match field {
             Some(LoadField::Entry(entry)) => self.positive(entry, unit, what),
             _ => 0.0,
@@ -156,6 +171,7 @@ impl Reading<'_> {
             radius: entry(file.field("radius"), SiUnit::METRE, "the radius"),
         };
         let fields = match (constant, friction.coefficient > 0.0) {
+            _ if file.field(other).is_some() => needed(effort),
             (None, false) if file.field("coefficient").is_none() => {
                 "`force`, `moment` or `coefficient`"
             }
