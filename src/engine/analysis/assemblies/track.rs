@@ -17,4 +17,4 @@ pub(super) use lift::Lift;
 pub(super) use local::Local;
 pub(super) use path::End;
 pub(super) use simple::{are_one, stands_alone};
-pub(super) use target::{Ends, ends, track_to_target};
+pub(super) use target::{Ends, WAYS, ends_by, track_to_target};

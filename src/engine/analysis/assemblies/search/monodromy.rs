@@ -63,13 +63,13 @@ pub(super) fn search_one(
     let generic = |stream| family.generic_member(&mut generator(settings.seed, stream));
     let given = base.is_some();
     let mut base = base.unwrap_or_else(|| generic(0));
-    let mut six = six_rods::solved(family, &base, watch);
-    for stream in (1..BASES).map(|k| k << 44) {
+    let mut six = six_rods::solved(family, &base, given, watch);
+    for k in 1..BASES {
         if !matches!(six, Some(None)) || given || watch.is_stopped() {
             break;
         }
-        base = generic(stream);
-        six = six_rods::solved(family, &base, watch);
+        base = generic(k << 44);
+        six = six_rods::solved(family, &base, k + 1 == BASES, watch);
     }
     let mut search = MemberSearch {
         watch,
@@ -153,7 +153,7 @@ impl<'a> MemberSearch<'a> {
             let quiet = self.found.quiet_loops >= self.settings.quiet_loops.max(1);
             match quiet || !self.family.varies() {
                 true if self.found.quiet_seeds >= self.settings.quiet_seeds => {
-                    if !self.is_led_on() && !self.close_legs() {
+                    if !self.close_legs() {
                         return false;
                     }
                     self.spread();
@@ -205,20 +205,6 @@ impl<'a> MemberSearch<'a> {
                 None => self.cut = None,
             }
         }
-    }
-
-    /// True if a trace test that does not hold led to solutions that were not known.
-    fn is_led_on(&mut self) -> bool {
-        let cut = self.cut.as_ref().filter(|_| !self.found.complete);
-        let led_to = cut.map_or(Vec::new(), |cut| cut.led_to((self.watch, self.in_loops())));
-        let node = &mut self.nodes[0];
-        let mut new = false;
-        for x in led_to {
-            if stands_alone(&mut node.still, C::from_f64(0.0), &x) {
-                new |= node.learn(x).1;
-            }
-        }
-        new
     }
 
     /// The node with most solutions among those that will do.

@@ -8,8 +8,7 @@
 //! Where f = c, the rod has whatever length it must have:
 //! these are the solutions without it and with the joint held, fewer than all and often of a known number. If all of them
 //! are in the sum, no solution can be missing from it, be there a loop that leads to it or not, whose f changes with t
-//! (the cut of Brysiewicz and Burr 2023, a sparse one, for the test of Leykin, Rodriguez and Sottile 2018). Where the sum is
-//! not zero, the points of the cut lead to solutions on every such curve as the rod takes its length.
+//! (the cut of Brysiewicz and Burr 2023, a sparse one, for the test of Leykin, Rodriguez and Sottile 2018).
 
 use rand::Rng;
 use rand_pcg::Pcg64;
@@ -46,10 +45,6 @@ pub(super) struct RodTrace<'f> {
     joint: (usize, C, C),
     /// The part of the cut in the identity, and of absolute values.
     cut: (C, f64),
-    /// The points of the cut, each with the length that the rod has there.
-    points: Vec<(Vec<C>, C)>,
-    base: Member,
-    closure: usize,
     /// Solutions with 1/(f − c) at both ends.
     known: Vec<(Vec<C>, [C; 2])>,
 }
@@ -110,41 +105,20 @@ impl<'f> RodTrace<'f> {
         let other = (longer * longer - length * length) * (0.5 / (size * size));
         let to = system.with_length(closure, longer);
         let mut way = ParameterHomotopy::between(family, (&system, &to), base)?;
-        let (mut cut, mut points) = ((C::from_f64(0.0), 0.0), Vec::new());
+        let mut cut = (C::from_f64(0.0), 0.0);
         for mut x in all.legwise.iter().flat_map(|s| s.points(&less.coordinates)) {
             x.insert(place, angle / scale);
             let t = way.evaluated(C::from_f64(0.0), &x).0[row];
             let rate = turning * level * way.rate(C::from_f64(0.0), &x, row)?[place];
             let term = -other / (t * (t - other) * rate);
             cut = (cut.0 + term, cut.1 + norm(term));
-            points.push((x, Number::sqrt(length * length + t * (2.0 * size * size))));
         }
         Some(RodTrace {
             way,
-            points,
-            base: base.clone(),
-            closure,
             joint: (place, turning, level),
             cut,
             known: Vec::new(),
         })
-    }
-
-    /// The solutions to which the points of the cut lead as the rod takes its length.
-    pub fn led_to(&self, watch: (&Watch, Progress)) -> Vec<Vec<C>> {
-        let family = self.way.family;
-        let Some(system) = family.system(&self.base.parameters) else {
-            return Vec::new();
-        };
-        let lead = |(x, length): &(Vec<C>, C)| {
-            let from = system.with_length(self.closure, *length);
-            let way = ParameterHomotopy::between(family, (&from, &system), &self.base)?;
-            let mut end = [Some(x.clone())];
-            tracked(&way, &mut end, watch);
-            let [end] = end;
-            end
-        };
-        self.points.iter().filter_map(lead).collect()
     }
 
     /// True if these are all solutions; `None` if a path is lost.

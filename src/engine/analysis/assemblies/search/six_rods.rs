@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::assemblies::family::{C, Family, LegwiseSolutions, Member};
-use crate::analysis::assemblies::track::{End, ParameterHomotopy, ends};
+use crate::analysis::assemblies::track::{End, ParameterHomotopy, WAYS, ends_by};
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{
     ChainDimensions, ClosureDimensions, ClosureKind, Dimensions, Frame, LinearForm,
@@ -27,15 +27,27 @@ struct General {
 const GENERAL: &str = include_str!("six_rods.ron");
 
 /// The solutions at a member, and how many of the 40 are at infinity there. `None` if the family is no platform on six rods, or
-/// within if some of them meet or a path is lost.
-pub(super) fn solved(family: &Family, member: &Member, watch: &Watch) -> Option<Option<Poses>> {
-    Some(reached(family, (member, &rods(family, member)?), watch))
+/// within if some of them meet or a path is lost: on the straight way, or on all if no other member will do.
+pub(super) fn solved(
+    family: &Family,
+    member: &Member,
+    only: bool,
+    watch: &Watch,
+) -> Option<Option<Poses>> {
+    let bends = if only { &WAYS[..] } else { &WAYS[..1] };
+    let rods = rods(family, member)?;
+    Some(reached(family, (member, &rods), bends, watch))
 }
 
 /// Solutions, and a number of others at infinity.
 pub(super) type Poses = (Vec<LegwiseSolutions>, usize);
 
-fn reached(family: &Family, (member, rods): (&Member, &[[C; 7]]), watch: &Watch) -> Option<Poses> {
+fn reached(
+    family: &Family,
+    (member, rods): (&Member, &[[C; 7]]),
+    bends: &[f64],
+    watch: &Watch,
+) -> Option<Poses> {
     let general: General = ron::from_str(GENERAL).ok()?;
     let size = family.coordinates.length;
     let from: Vec<[C; 7]> = general
@@ -50,7 +62,8 @@ fn reached(family: &Family, (member, rods): (&Member, &[[C; 7]]), watch: &Watch)
         legs: Vec::new(),
     });
     let (mut solutions, mut infinite) = (Vec::new(), 0);
-    for end in ends(&way, &poses.collect::<Vec<_>>(), watch)?.ends {
+    let poses: Vec<LegwiseSolutions> = poses.collect();
+    for end in ends_by(bends, &way, &poses, watch)?.ends {
         match end {
             End::Regular(pose) => solutions.push(LegwiseSolutions {
                 pose,

@@ -75,7 +75,20 @@ fn tracked_with_rods(
 }
 
 /// The ends of all paths of a homotopy.
-pub(crate) fn ends(
+fn ends(
+    homotopy: &ParameterHomotopy<'_>,
+    legwise: &[LegwiseSolutions],
+    watch: &Watch,
+) -> Option<Ends> {
+    ends_by(&WAYS, homotopy, legwise, watch)
+}
+
+/// Bends of the ways that are tried one after the other.
+pub(crate) const WAYS: [f64; 5] = [0.0, 0.4, -0.4, 0.8, -0.8];
+
+/// The ends of all paths of a homotopy by the first of some ways that loses none, or the fewest.
+pub(crate) fn ends_by(
+    bends: &[f64],
     homotopy: &ParameterHomotopy<'_>,
     legwise: &[LegwiseSolutions],
     watch: &Watch,
@@ -83,7 +96,7 @@ pub(crate) fn ends(
     let followed = AtomicUsize::new(0);
     let mut best: Option<Ends> = None;
     let mut retries = 0;
-    for bend in [0.0, 0.4, -0.4, 0.8, -0.8] {
+    for &bend in bends {
         let mut batch = PathBatch {
             homotopy,
             bend,
