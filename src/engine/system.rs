@@ -32,6 +32,7 @@ pub use crate::mechanism::{
 pub use balance::{Balance, Instant};
 pub use bearing::{Bearings, Carried};
 pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
+pub(crate) use bundle::SideRows;
 pub use bundle::{Arrow, Bundle, Bundled, Closer, Copies, PathForm, Target, TargetError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
 pub use curve::{

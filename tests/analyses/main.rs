@@ -24,6 +24,7 @@ mod loads;
 mod many;
 mod mobility;
 mod modes;
+mod nine_points;
 mod printed_solutions;
 mod quantities;
 mod rank;

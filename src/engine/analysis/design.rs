@@ -5,16 +5,20 @@
 //! squares, exactly where there are no more of them than unknowns. The search starts from many random dimensions and goes down by the method of Levenberg and
 //! Marquardt with all closures kept closed; every different end is then judged along the whole curve of its mechanism.
 
+mod coupler_curve;
 mod course;
 mod exact;
+mod four_bar;
 mod improve;
 mod nearest;
+mod pinned;
 mod report;
 mod search;
 mod symmetry;
 
 pub use course::{DesignCourse, course};
-pub use exact::{Exact, NotAll};
+pub use exact::{Exact, NotAll, Triples};
 pub use improve::Cost;
-pub use report::{Defect, Design, DesignReport, Deviation, Goal, Moves, Nearest};
+pub use pinned::PinnedFourBar;
+pub use report::{Cognate, Defect, Design, DesignReport, Deviation, Goal, Moves, Nearest};
 pub use search::{FoundEnd, SearchedEnds, Task};

@@ -8,14 +8,15 @@ mod weights;
 
 use std::sync::Arc;
 
-use crate::analysis::design::{self, DesignReport, FoundEnd, Task};
+use crate::analysis::design::{self, DesignReport, FoundEnd, PinnedFourBar, Task};
 use crate::description::{
-    Description, DesignDescription, DesignError, DesignPart, DesignProblem, MissedTarget,
+    Description, DesignDescription, DesignError, DesignPart, DesignProblem, Entry, MissedTarget,
+    Named,
 };
 use crate::mechanism::Mechanism;
 use crate::number::sorting::sort_by;
 use crate::solve::{LeastSquares, Watch};
-use crate::system::Bound;
+use crate::system::{Bound, Bundled};
 pub use drawn::DrawnDesign;
 use judge::Judge;
 use read::Read;
@@ -149,7 +150,7 @@ impl Design {
             judge.watch = &none;
         }
         // of a linkage with links exchanged the one that drives without defects
-        let mut classes: Vec<(usize, design::Design)> = Vec::new();
+        let mut classes: Vec<(&FoundEnd, design::Design)> = Vec::new();
         for found in found {
             if searched.interrupted && classes.len() >= FEW {
                 break;
@@ -162,27 +163,34 @@ impl Design {
                 judged = self.design(&task, &judge, found);
             }
             let Some(design) = judged else { continue };
-            match classes.iter_mut().find(|(of, _)| *of == found.class) {
-                Some((_, known)) if design.defects.len() < known.defects.len() => *known = design,
+            match classes.iter_mut().find(|(of, _)| of.class == found.class) {
+                Some(known) if design.defects.len() < known.1.defects.len() => {
+                    *known = (found, design);
+                }
                 Some(_) => {}
-                None => classes.push((found.class, design)),
+                None => classes.push((found, design)),
             }
         }
         let mut distinct: Vec<usize> = searched.found.iter().map(|of| of.class).collect();
         distinct.sort_unstable();
         distinct.dedup();
-        let mut designs: Vec<design::Design> = classes.into_iter().map(|(_, of)| of).collect();
         let sign = match &self.asked.goal {
             Some(goal) if goal.greatest => -1.0,
             _ => 1.0,
         };
         let rank = |of: &design::Design| sign * of.goal.unwrap_or(sign * f64::INFINITY);
-        sort_by(&mut designs, |a, b| {
+        sort_by(&mut classes, |(_, a), (_, b)| {
             let defects = |of: &design::Design| !of.defects.is_empty();
             let goals = rank(a).total_cmp(&rank(b));
             defects(a).cmp(&defects(b)).then(goals)
         });
-        designs.truncate(most);
+        classes.truncate(most);
+        let points: Vec<&Bundled> = classes.iter().map(|(of, _)| &of.at).collect();
+        let cognates = task.cognates(&points);
+        let mut designs: Vec<design::Design> = classes.into_iter().map(|(_, of)| of).collect();
+        for (design, cognates) in designs.iter_mut().zip(cognates) {
+            design.cognates = cognates;
+        }
         let best = searched.found.first();
         let best = best.and_then(|found| task.bundle.model(&found.at));
         let (undetermined, repeated) = best.map_or((0, 0), |of| (of.open().len(), of.repeated()));
@@ -229,7 +237,14 @@ impl Design {
     fn task<'m>(&self, mechanism: &'m Mechanism, read: &Read, again: usize) -> Task<'m> {
         let bundle = read.bundle(mechanism, self.asked.positions.len());
         let free_driver = read.driver.filter(|_| !read.driven);
+        let positions = self.asked.positions.len();
+        let plain =
+            |of: &Vec<Named<Vec<Entry>>>| matches!(&of[..], [point] if point.value.len() == 2);
+        let path = self.asked.positions.iter().all(plain);
         Task {
+            path: path
+                .then(|| PinnedFourBar::of(mechanism, &read.targets, positions))
+                .flatten(),
             mechanism,
             plain: free_driver.map(|driver| {
                 let mut held = read.held.clone();
@@ -302,6 +317,7 @@ impl Design {
             driver: verdict.moves,
             goal: verdict.goal,
             reached: found.reached,
+            cognates: Vec::new(),
             file: judge.file(found),
         })
     }

@@ -27,6 +27,7 @@ pub use closer::Closer;
 pub use copies::Copies;
 use elimination::{Blocks, Eliminated};
 use shared::Reduced;
+pub(crate) use sides::SideRows;
 pub use target::{Target, TargetError};
 
 use crate::linear::{Factorable, RANK_TOLERANCE};
@@ -150,6 +151,30 @@ impl<'m> Bundle<'m> {
         let of = self.targets.entry(target.configuration).or_default();
         of.push(target);
         Ok(self)
+    }
+
+    /// The bundle with these targets instead of its own.
+    ///
+    /// # Panics
+    /// If one is a rate, a force or a figure.
+    #[must_use]
+    pub fn aimed(&self, targets: Vec<Target>) -> Self {
+        let plain = Bundle {
+            targets: BTreeMap::new(),
+            frames: Vec::new(),
+            written: None,
+            ..self.clone()
+        };
+        let with = |bundle: Self, target| bundle.target(target).expect("a configuration has it");
+        targets.into_iter().fold(plain, with)
+    }
+
+    /// Gives its targets other values, position by position.
+    pub fn aim(&mut self, values: &[f64]) {
+        let targets = self.targets.values_mut().flatten();
+        targets
+            .zip(values)
+            .for_each(|(target, value)| target.value = *value);
     }
 
     /// Takes the closures of every configuration to have this rank, and conditions on the shared numbers that are smaller than

@@ -139,7 +139,8 @@ pub fn followed<F: Family>(
             if !step.is_finite() {
                 return Err(false);
             }
-            if step < 1e-13 || step >= 0.5 * before && step < 1e-9 {
+            // what rounding leaves of an ill-conditioned solution is less than what tells two apart
+            if step < 1e-13 || step >= 0.5 * before && step < 0.1 * SAME {
                 return Ok(x);
             }
             before = step;

@@ -3,7 +3,9 @@
 use super::document::{Cell, Document, Table, TableOf};
 use super::quantity::{clause, form, quantity};
 use super::report::{Report, Rows};
-use crate::analysis::design::{Defect, Design, DesignReport, Deviation, Exact, Moves, NotAll};
+use crate::analysis::design::{
+    Cognate, Defect, Design, DesignReport, Deviation, Exact, Moves, NotAll,
+};
 use crate::description::{count, quoted};
 
 /// A sum of squares below this part of what was asked is met exactly.
@@ -188,6 +190,31 @@ fn all_of(exact: &Exact) -> Vec<String> {
             exact.classes,
         )];
     }
+    if let Some(triples) = &exact.triples {
+        let lost = match exact.lost {
+            0 => String::new(),
+            lost => format!(", {} lost on every way", count(lost, "path")),
+        };
+        return vec![
+            format!(
+                "For generic points {} of cognates, {} with either link driving (Wampler, Morgan and Sommese 1992): found by \
+                 monodromy, and stored with the program.",
+                count(triples.generic, "triple"),
+                count(exact.generic, "four-bar"),
+            ),
+            format!(
+                "For these points {} of {} arrived, {} went to infinity{lost}: {} different, {} real; of {} real {} outside the \
+                 ranges.",
+                exact.arrived,
+                count(triples.generic, "path"),
+                exact.at_infinity,
+                count(triples.different, "triple"),
+                triples.real,
+                count(exact.real, "four-bar"),
+                exact.outside,
+            ),
+        ];
+    }
     let linkages = match exact.classes == exact.generic {
         true => String::new(),
         false => format!(
@@ -239,6 +266,24 @@ fn not_all(why: NotAll) -> String {
             count(found, "linkage")
         ),
     }
+}
+
+/// The cognates of a design by their numbers in the list.
+fn listed(of: &Design) -> String {
+    let numbers = of.cognates.iter().map(|of| match of.design {
+        Some(number) => number.to_string(),
+        None => "not listed".to_owned(),
+    });
+    numbers.collect::<Vec<String>>().join(", ")
+}
+
+/// A cognate by its pivots and lengths.
+fn cognate(of: &Cognate) -> String {
+    let [a, b] = of.pivots.map(|[x, y]| format!("({x:.6}, {y:.6})"));
+    let [ground, first, coupler, second] = of.lengths.map(|x| format!("{x:.6}"));
+    format!(
+        "pivots {a} and {b} m, ground {ground}, links {first} and {second}, coupler {coupler} m"
+    )
 }
 
 /// What a design does not do, in words.
@@ -324,6 +369,7 @@ impl Report for DesignReport {
         if !self.varied.is_empty() {
             let value =
                 |design: &Design, k: usize| Cell::quantity(design.values[k], self.varied[k].unit);
+            let cognates = self.designs.iter().any(|of| !of.cognates.is_empty());
             let goal = |of: &Design| match (&self.goal, of.goal) {
                 (Some(goal), Some(value)) => Cell::quantity(value, goal.unit),
                 _ => "unknown".into(),
@@ -331,6 +377,7 @@ impl Report for DesignReport {
             let table = columns(self, value)
                 .numbers("sum of squares", |(_, of)| squares(of.sum_of_squares))
                 .each(figure(self), |(_, of), _| goal(of))
+                .each(cognates.then_some("cognates"), |(_, of), _| listed(of))
                 .words("verdict", |(_, of)| verdict(self, of));
             document = document.table("Designs", table);
         }
@@ -355,6 +402,13 @@ impl Report for DesignReport {
                     form(ends.len(), are[0], are[1]),
                 ));
             }
+        }
+        if let Some([one, other]) = first.map(|of| &of.cognates[..]) {
+            document = document.note(format!(
+                "The curve of the first is that of two more four-bars, its cognates (Roberts): {}; and {}.",
+                cognate(one),
+                cognate(other)
+            ));
         }
         if self.undetermined > 0 && !self.varied.is_empty() && first.is_some_and(met) {
             document = document.note(format!(

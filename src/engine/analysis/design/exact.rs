@@ -39,6 +39,21 @@ pub struct Exact {
     /// The numbers of that one of these which lies least outside, relative to the size of the task.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub least_outside: Option<Vec<f64>>,
+    /// Classes of cognates, for nine points of a four-bar's coupler curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub triples: Option<Triples>,
+}
+
+/// Classes of three cognate four-bars with one coupler curve, counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Triples {
+    /// Those for generic points.
+    pub generic: usize,
+    /// Different ones that were reached.
+    pub different: usize,
+    /// Real ones.
+    pub real: usize,
 }
 
 impl Exact {
@@ -176,6 +191,9 @@ impl Task<'_> {
         most: usize,
         watch: &Watch,
     ) -> Result<Option<(Exact, SearchedEnds)>, NotAll> {
+        if let Some(found) = self.nine_points(watch) {
+            return Ok(Some(found));
+        }
         let Some(copies) = Copies::new(&self.bundle, self.positions) else {
             return Ok(None);
         };

@@ -160,8 +160,26 @@ pub struct Design {
     pub driver: Moves,
     /// Number of starts that led to it.
     pub reached: usize,
+    /// The two other four-bars with the same coupler curve (Roberts 1875), where the point of one passes through points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cognates: Vec<Cognate>,
     /// The mechanism file.
     pub file: String,
+}
+
+/// Another four-bar whose coupler point has the same curve, in the first position, in ground.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Cognate {
+    /// x and y of its pivots, in m.
+    pub pivots: [[f64; 2]; 2],
+    /// x and y of the pins of its coupler, in m.
+    pub pins: [[f64; 2]; 2],
+    /// Lengths of ground, first link, coupler and second link, in m.
+    pub lengths: [f64; 4],
+    /// Its number among the designs that are listed, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design: Option<usize>,
 }
 
 /// What comes nearest to targets that no design meets.

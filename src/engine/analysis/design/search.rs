@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use super::pinned::PinnedFourBar;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::tolerance::SAME;
 use crate::number::{real, sorting::sort_by};
@@ -30,6 +31,8 @@ pub struct Task<'m> {
     pub positions: usize,
     /// The joint that drives, unless positions give its values.
     pub free_driver: Option<usize>,
+    /// The four-bar whose point shall pass through the targets, if it is one.
+    pub path: Option<PinnedFourBar>,
     /// Seed of everything random.
     pub seed: u64,
     /// Starts at most.
@@ -217,7 +220,7 @@ impl Task<'_> {
     }
 
     /// Random numbers in their ranges: lengths of the order of the task's size first of all.
-    fn numbers(&self, rng: &mut Pcg64) -> Vec<f64> {
+    pub(super) fn numbers(&self, rng: &mut Pcg64) -> Vec<f64> {
         let ranges = self.ranges.iter().zip(&self.angles);
         ranges
             .map(|(&(low, high), angle)| {
@@ -240,7 +243,7 @@ impl Task<'_> {
     }
 
     /// A random configuration, far from assembled.
-    fn random(&self, rng: &mut Pcg64) -> Configuration<f64> {
+    pub(super) fn random(&self, rng: &mut Pcg64) -> Configuration<f64> {
         let mut at = self.mechanism.home();
         for (joint, value) in self.mechanism.joints().iter().zip(&mut at.joints) {
             let random = 2.0 * rng.random::<f64>() - 1.0;

@@ -4,7 +4,7 @@ use crate::number::Field;
 
 /// Rows of a matrix with right-hand sides at their ends.
 #[derive(Clone, Debug)]
-pub(super) struct SideRows<T> {
+pub(crate) struct SideRows<T> {
     pub width: usize,
     pub entries: Vec<T>,
 }
