@@ -599,6 +599,45 @@ fn the_closed_curve_of_18_points_is_met_as_nearly_as_is_known() {
     assert!(best.sum_of_squares > 0.999 * 0.0090288846);
 }
 
+/// One start at the dimensions of the file finds the linkage beside it whose points were given.
+#[test]
+fn a_design_is_followed_from_the_dimensions_of_its_file() {
+    let moved = [1.04, 2.95, 4.02, 1.55, 0.45];
+    let [l1, l2, l3, u, v] = moved;
+    // the circle of the coupler's end about that of the crank meets that of the rocker
+    let place = |crank: f64| {
+        let (x, y) = (l1 * crank.cos(), l1 * crank.sin());
+        let (dx, dy) = (5.0 - x, -y);
+        let apart = dx.hypot(dy);
+        let along = (apart * apart + l2 * l2 - l3 * l3) / (2.0 * apart);
+        let angle = dy.atan2(dx) + (along / l2).acos();
+        (
+            x + u * angle.cos() - v * angle.sin(),
+            y + u * angle.sin() + v * angle.cos(),
+        )
+    };
+    let places = (0..9).map(|k| place(0.4 + 0.6 * f64::from(k)));
+    let places = places.map(|(x, y)| format!("{{ \"point\": ({x:?}, {y:?}) }}"));
+    let places = places.collect::<Vec<_>>().join(", ");
+    let text = format!(
+        r#"Design(version: 1, mechanism: "four_bar.ron", vary: {{ "l1": (0.1, 20), "l2": (0.1, 20), "l3": (0.1, 20), "u": (-20, 20),
+            "v": (-20, 20) }}, positions: [{places}])"#
+    );
+    let design = Design {
+        mechanism: four_bar([5.0, 1.0, 3.0, 4.0], [1.5, 0.5], false),
+        asked: DesignDescription::read(&text).unwrap(),
+        starts: 1,
+        own: true,
+        ..Design::default()
+    };
+    let report = design.report(&Watch::none()).unwrap();
+    let followed = &report.designs[0];
+    assert!(followed.sum_of_squares < 1e-20 && followed.defects.is_empty());
+    for (found, wanted) in followed.values.iter().zip(moved) {
+        assert!((found - wanted).abs() < 1e-8, "{:?}", followed.values);
+    }
+}
+
 #[test]
 fn wrong_questions_are_refused_where_they_are_wrong() {
     let wrong = |text: &str| {
