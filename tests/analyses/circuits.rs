@@ -455,3 +455,25 @@ fn configurations_with_more_freedoms_are_on_no_circuit_and_leave_the_others_whol
         assert!((low + folded).abs() < 1e-8 && (high - folded).abs() < 1e-8);
     }
 }
+
+/// Rods of a delta robot on both sides of each other: with two arms held, most poses are far from those of the robot, and some
+/// hundreds of its sizes away, whose paths are long.
+#[test]
+fn a_delta_with_two_arms_held_has_a_branch_for_every_assembly() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+    let (_, description) = Mechanism::read(format!("{folder}/delta.ron")).unwrap();
+    let mechanism = Mechanism::new(&description).unwrap();
+    let asked = (Question::new(mechanism).hold("theta1", 0.1)).hold("theta2", 0.2);
+    let report = asked.circuits(&Watch::none()).unwrap();
+    // far away paths are lost, and may have led to others
+    assert!(!report.is_whole());
+    assert!(report.document().answer.starts_with("At least"));
+    for degrees in [80.0_f64, 30.0, -40.0] {
+        let at = degrees.to_radians();
+        let held = asked.clone().hold("theta3", at);
+        let found = held.assemblies(Wanted::default(), &Watch::none()).unwrap();
+        let branches = report.circuits.iter().flat_map(|circuit| &circuit.branches);
+        let passing = branches.filter(|of| of.low < at && at < of.high);
+        assert_eq!(passing.count(), found.real, "theta3 = {degrees}°");
+    }
+}

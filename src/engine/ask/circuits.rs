@@ -37,6 +37,7 @@ impl Question {
             Some((joint, question)) => {
                 let solver = self.solver(&question, watch)?;
                 let mut values = vec![beside_home(mechanism, joint)];
+                let mut uncovered = f64::INFINITY;
                 loop {
                     let of =
                         |value: &f64| slice(mechanism, &question, &solver, (joint, *value), watch);
@@ -44,8 +45,10 @@ impl Question {
                     let report = follow(&home, &settings);
                     // beyond values at which configurations go to infinity others begin
                     let gaps = report.swept.iter().flat_map(|swept| &swept.gaps);
-                    values = gaps.map(|[from, to]| 0.5 * (from + to)).collect();
-                    let most = settings.slices.len() >= MOST_SLICES;
+                    values = gaps.clone().map(|[from, to]| 0.5 * (from + to)).collect();
+                    let before = uncovered;
+                    uncovered = gaps.map(|[from, to]| to - from).sum();
+                    let most = settings.slices.len() >= MOST_SLICES || uncovered > GAINED * before;
                     if values.is_empty() || most || watch.is_stopped() {
                         break report;
                     }
@@ -170,6 +173,9 @@ fn sliced<'q>(
 
 /// The distance to which slides are followed in the search for circuits, in characteristic lengths.
 const REACH: f64 = 5.0;
+
+/// More values are looked at as long as they leave no more than this part of what was uncovered.
+const GAINED: f64 = 0.8;
 
 /// Values at most at which all configurations are found.
 const MOST_SLICES: usize = 12;

@@ -2,7 +2,7 @@
 
 use super::Curve;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::number::{C, Number};
+use crate::number::{C, Number, complex::norm, real};
 use crate::solve::{Equations, Place, SolutionCurve};
 use crate::system::equations::{System, Work};
 use crate::system::{Held, Unknown};
@@ -20,6 +20,8 @@ pub struct ComplexCurve {
     joint: usize,
     column: usize,
     cycles: Vec<Option<f64>>,
+    /// For each unknown, true if it is a length.
+    lengths: Vec<bool>,
 }
 
 impl ComplexCurve {
@@ -27,7 +29,12 @@ impl ComplexCurve {
     pub fn new(mechanism: &Mechanism, held: &Held<f64>, joint: usize) -> Option<Self> {
         let dimensions = mechanism.dimensions().map(C::from_f64);
         let system = System::reduced(mechanism, &dimensions, &held.map(C::from_f64));
+        let is_length = |unknown: &Unknown| match *unknown {
+            Unknown::Joint(joint) => !mechanism.joints()[joint].kind.is_angle(),
+            Unknown::Twist(_, component) => component >= 3,
+        };
         Some(ComplexCurve {
+            lengths: system.unknowns().iter().map(is_length).collect(),
             work: system.work(),
             joint,
             column: system.place_of(Unknown::Joint(joint))?,
@@ -69,6 +76,29 @@ impl ComplexCurve {
         let step = self.system.difference(&real.map(C::from_f64), at);
         let imaginary = step.iter().map(|z| z.im.abs());
         (imaginary.fold(0.0, f64::max), real)
+    }
+
+    /// The largest length among the unknowns, in characteristic lengths.
+    pub fn extent(&self, at: &Configuration<C>) -> f64 {
+        let slides = self.system.unknowns().iter().zip(&self.lengths);
+        let slides = slides.filter_map(|(unknown, is_length)| match *unknown {
+            Unknown::Joint(joint) if *is_length => {
+                Some(norm(at.joints[joint]) / self.system.joint_scale(joint))
+            }
+            _ => None,
+        });
+        let places = at.platforms.iter().flat_map(|of| of.position.0);
+        let places = places.map(|x| norm(x) / self.system.characteristic_length());
+        slides.chain(places).fold(0.0, f64::max)
+    }
+
+    /// The largest imaginary angle, or the imaginary angle with a cosine as large as the largest length.
+    pub fn depth(&self, at: &Configuration<C>) -> f64 {
+        let (_, real) = self.split(at);
+        let step = self.system.difference(&real.map(C::from_f64), at);
+        let angles = step.iter().zip(&self.lengths).filter(|(_, is)| !**is);
+        let angles = angles.map(|(z, _)| z.im.abs()).fold(0.0, f64::max);
+        angles.max(real::ln(2.0 * self.extent(at).max(0.5)))
     }
 
     /// The distance between two configurations, whole turns left out.

@@ -165,8 +165,10 @@ impl Course<'_> {
     fn continue_name(&mut self, name: usize, fit: &Fit, part: &Approach) {
         /// Nearer than this part of it rounding shows.
         const NEXT: f64 = 0.1;
-        /// Beyond the last of its places what they are off grows so much at most.
-        const GROWS: f64 = 10.0;
+        /// At the crossing, beyond the last of its places, rounding grows 15-fold (the sum of the Lagrange polynomials there)
+        /// and the distance seen at the second compared place 13-fold (the ratio of the products of distances to the places),
+        /// as far as the ninth derivative is constant; here it may be three times as large.
+        const GROWS: f64 = 40.0;
         let off = GROWS * fit.may_be_off();
         let [far, near] = part.measures;
         for piece in &mut self.pieces {

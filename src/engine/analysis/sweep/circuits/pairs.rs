@@ -33,6 +33,7 @@ pub(super) struct PairPaths<'a> {
     pub reach: f64,
     /// Crossings that a path came to, each with the sense in which it went.
     pub crossings: Vec<(Configuration<C>, bool)>,
+    /// Steps made so far, with those from other values.
     pub steps: usize,
     pub watch: &'a Watch<'a>,
 }
@@ -45,7 +46,7 @@ impl PairPaths<'_> {
     /// True if cosines are so large that rounding may keep paths from being followed.
     pub fn is_far(&self, at: &Configuration<C>) -> bool {
         const FAR: f64 = 5.0;
-        self.complex.split(at).0 > FAR
+        self.complex.depth(at) > FAR
     }
 
     /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
@@ -84,7 +85,12 @@ impl PairPaths<'_> {
             }
             match self.method.step(&mut self.complex, &place, length) {
                 Ok((to, changed)) => {
-                    length = self.method.next_length(length, changed, &to);
+                    // of what is far out the change of the Jacobian alone says how long steps may be
+                    let method = Continuation {
+                        longest: self.method.longest * (1.0 + self.complex.extent(&to.at)),
+                        ..self.method.clone()
+                    };
+                    length = method.next_length(length, changed, &to);
                     place = to;
                     none_ahead = false;
                 }
@@ -116,7 +122,7 @@ impl PairPaths<'_> {
             {
                 return PairEnd::Real(dead.at);
             }
-            if imaginary > INFINITE {
+            if self.complex.depth(&place.at) > INFINITE {
                 return PairEnd::Pole(self.complex.value(&place.at));
             }
             before = imaginary;

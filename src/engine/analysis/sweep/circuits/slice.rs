@@ -123,8 +123,10 @@ pub(super) fn sweep(
     };
     // what they cover, as distances from the first
     let mut covered = Vec::new();
+    let mut steps = 0;
     for of in slices {
-        let Some([below, above]) = from_one(of, held, tracing, &mut swept, watch) else {
+        let went = from_one((of, held), tracing, &mut swept, &mut steps, watch);
+        let Some([below, above]) = went else {
             swept.doubtful = true;
             continue;
         };
@@ -185,10 +187,10 @@ fn gaps(covered: &[[f64; 2]], reach: f64, cycle: bool) -> impl Iterator<Item = [
 
 /// Follows the curves that one slice leads to. Returns the distances below and above its value that all paths covered.
 fn from_one(
-    slice: &Slice,
-    held: &Held<f64>,
+    (slice, held): (&Slice, &Held<f64>),
     tracing: &mut Tracing,
     swept: &mut Swept,
+    steps: &mut usize,
     watch: &Watch,
 ) -> Option<[f64; 2]> {
     let mechanism = tracing.mechanism;
@@ -211,7 +213,7 @@ fn from_one(
         reach: paths_reach(slice, cycle),
         complex,
         crossings: Vec::new(),
-        steps: 0,
+        steps: *steps,
         watch,
     };
     let mut went = [-paths.reach, paths.reach];
@@ -283,6 +285,7 @@ fn from_one(
             PairEnd::GivenUp => swept.given_up += 1,
         }
     }
+    *steps = paths.steps;
     // of the sets of angles of balls one is followed, and paths may end at another
     let one_set = |at: &Configuration<f64>| mechanism.sets_of_angles(at).len() == 1;
     let near = |a: &Configuration<f64>, b: &Configuration<f64>| {
