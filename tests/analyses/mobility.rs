@@ -13,7 +13,7 @@ use linkwork::geometry::Vector3;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::Report;
 use linkwork::solve::Watch;
-use linkwork::system::{Analysed, Question, TwistSpace};
+use linkwork::system::{Analysed, Question, TwistSpace, check_count};
 
 fn path(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
@@ -1005,4 +1005,42 @@ fn no_pose_near_a_singular_one_has_more_finite_freedoms_than_infinitesimal_ones(
             }
         }
     }
+}
+
+/// Three equal cranks on a rod, their axles 0.8 mm off one line, turn together: A0' = A1' = A2' (parallelograms). Nearly in line
+/// with the axles the rod can also be assembled so that nothing moves; that is another assembly. With one crank shorter the
+/// three are a structure everywhere.
+#[test]
+fn cranks_whose_axles_are_nearly_in_line_turn_though_another_assembly_is_rigid() {
+    let cranks = |last: f64| {
+        let joint = |k: usize, (x, y): (f64, f64), by: f64| {
+            let role = if k == 0 { ", role: Actuated" } else { "" };
+            let pin = |name: &str, (x, y): (f64, f64), on: String| {
+                format!(
+                    r#""{name}{k}": Revolute(point: ({x:.6}, {y:.6}, 0), direction: (0, 0, 1), {on}),"#
+                )
+            };
+            let foot = pin(
+                "A",
+                (x, y),
+                format!(r#"between: ("ground", "crank{k}"){role}"#),
+            );
+            let end = (x + 0.21 * by, y + 0.13 * by);
+            foot + &pin("D", end, format!(r#"between: ("crank{k}", "rod")"#))
+        };
+        let joints = joint(0, (0.0, 0.0), 1.0)
+            + &joint(1, (0.32, 0.0), 1.0)
+            + &joint(2, (0.65, -0.0008), last);
+        read(&format!(
+            r#"Axes(version: 1, name: "cranks", joints: {{ {joints} }})"#
+        ))
+    };
+    let turning = cranks(1.0);
+    let question = Question::new(&turning);
+    let count = check_count(&question).expect("one crank is driven");
+    assert_eq!((count.mobility, count.held), (Some(1), 1));
+    let found = of(&turning);
+    assert_eq!(found.mobility, 1);
+    let structure = cranks(0.9);
+    assert!(check_count(&Question::new(&structure)).is_err());
 }

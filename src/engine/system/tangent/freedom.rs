@@ -167,16 +167,24 @@ impl RegularFreedoms {
             let Some(at) = at else { continue };
             let freedoms = Freedoms::of(near.system(), &at, &mut work);
             // no other configuration has fewer
-            if freedoms.motions.len() == fewest && near.tangent(at.clone()).idle.is_empty() {
-                return Some(RegularFreedoms {
-                    freedoms,
-                    at,
-                    idle: 0,
-                });
-            }
+            let least =
+                freedoms.motions.len() == fewest && near.tangent(at.clone()).idle.is_empty();
+            let first = found.is_empty();
             found.push((freedoms, at));
+            if least && first {
+                return found.pop().map(RegularFreedoms::without_local);
+            } else if least {
+                break;
+            }
         }
         let fewest = found.iter().map(|(f, _)| f.motions.len()).min()?;
+        if found[0].0.motions.len() > fewest {
+            // where every motion is finite and moves some point, what has fewer is another assembly, not this one made general
+            let tangent = near.tangent(found[0].1.clone());
+            if tangent.idle.is_empty() && near.is_mobile(&tangent) {
+                return Some(RegularFreedoms::without_local(found.swap_remove(0)));
+            }
+        }
         let mut best: Option<(Freedoms, Configuration<f64>, usize)> = None;
         for (freedoms, at) in found.into_iter().filter(|(f, _)| f.motions.len() == fewest) {
             let idle = near.tangent(at.clone()).idle.len();
@@ -189,6 +197,14 @@ impl RegularFreedoms {
         }
         let (freedoms, at, idle) = best?;
         Some(RegularFreedoms { freedoms, at, idle })
+    }
+
+    fn without_local((freedoms, at): (Freedoms, Configuration<f64>)) -> Self {
+        RegularFreedoms {
+            freedoms,
+            at,
+            idle: 0,
+        }
     }
 
     /// The configuration whose freedoms they are.
