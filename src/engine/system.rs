@@ -50,7 +50,7 @@ pub(crate) use equations::{ConstantsCourse, solve};
 pub use equilibrium::Equilibrium;
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
-pub(crate) use lanes::{LaneNumbers, LaneProgram, Mask, assign, bits, choose};
+pub(crate) use lanes::{LaneNumbers, LaneProgram, Mask, assign, bits, choose, small};
 pub use loaded::{Acting, Loaded, Moving};
 pub use question::{
     Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Role, Still,

@@ -105,6 +105,11 @@ widest! {
     fn agree(decided: &[(usize, bool)], lanes: &mut Mask, registers: &Registers) runs agree_each
 }
 
+widest! {
+    /// Leaves lanes in which none of the numbers in these registers is larger than a bound.
+    pub(crate) fn small(of: &[usize], most: f64, lanes: &mut Mask, registers: &Registers) runs small_each
+}
+
 #[inline(always)]
 fn assign_each(pairs: &[(usize, usize)], lanes: &Mask, registers: &mut Registers) {
     for &(to, from) in pairs {
@@ -117,9 +122,20 @@ fn assign_each(pairs: &[(usize, usize)], lanes: &Mask, registers: &mut Registers
 #[inline(always)]
 fn agree_each(decided: &[(usize, bool)], lanes: &mut Mask, registers: &Registers) {
     for &(register, negative) in decided {
-        let numbers = registers.rows(register);
-        for (lane, x) in lanes.iter_mut().zip(numbers) {
-            *lane &= bits(((*x < 0.0) == negative) & !x.is_nan());
+        let both = lanes.iter_mut().zip(registers.rows(register));
+        match negative {
+            true => both.for_each(|(lane, x)| *lane &= bits(*x < 0.0)),
+            false => both.for_each(|(lane, x)| *lane &= bits(*x >= 0.0)),
+        }
+    }
+}
+
+/// Leaves lanes in which none of the numbers is larger than this; a NaN is.
+#[inline(always)]
+fn small_each(of: &[usize], most: f64, lanes: &mut Mask, registers: &Registers) {
+    for &register in of {
+        for (lane, x) in lanes.iter_mut().zip(registers.rows(register)) {
+            *lane &= bits(x.abs() <= most);
         }
     }
 }

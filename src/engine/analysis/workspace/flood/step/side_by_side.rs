@@ -7,7 +7,7 @@ use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::number::tolerance::SOLVED;
 use crate::solve::Equations;
-use crate::system::{HeldPlatform, LaneProgram, Mask, System, bits};
+use crate::system::{HeldPlatform, LaneProgram, Mask, System, bits, small};
 
 /// Newton's method and the motions at its end as a program for [`BATCH`] places.
 ///
@@ -114,11 +114,7 @@ impl SideBySide {
                 let before = *going;
                 program.holds(going, registers);
                 let mut solved = *going;
-                for &register in rows {
-                    let rows = solved.iter_mut().zip(registers.rows(register));
-                    // a NaN is not small
-                    rows.for_each(|(solved, x)| *solved &= bits(x.abs() <= SOLVED));
-                }
+                small(rows, SOLVED, &mut solved, registers);
                 for i in 0..BATCH {
                     ends.open[i] |= before[i] & !going[i];
                     ends.arrived[i] |= solved[i];
