@@ -1008,7 +1008,7 @@ fn no_pose_near_a_singular_one_has_more_finite_freedoms_than_infinitesimal_ones(
 }
 
 /// Three equal cranks on a rod, their axles 0.8 mm off one line, turn together: A0' = A1' = A2' (parallelograms). Nearly in line
-/// with the axles the rod can also be assembled so that nothing moves; that is another assembly. With one crank shorter the
+/// with the axles the rod can also be assembled so that nothing moves; that is another assembly. With one crank in another direction the
 /// three are a structure everywhere.
 #[test]
 fn cranks_whose_axles_are_nearly_in_line_turn_though_another_assembly_is_rigid() {
@@ -1025,7 +1025,7 @@ fn cranks_whose_axles_are_nearly_in_line_turn_though_another_assembly_is_rigid()
                 (x, y),
                 format!(r#"between: ("ground", "crank{k}"){role}"#),
             );
-            let end = (x + 0.21 * by, y + 0.13 * by);
+            let end = (x + 0.21, y + 0.13 * by);
             foot + &pin("D", end, format!(r#"between: ("crank{k}", "rod")"#))
         };
         let joints = joint(0, (0.0, 0.0), 1.0)

@@ -47,6 +47,8 @@ struct MemberSearch<'a> {
     cuts: usize,
     /// Number of solutions for which it was run last.
     traced: usize,
+    /// True if it did not hold then.
+    refuted: bool,
     /// Number of solutions from which on it is doubted that they are finite in number.
     doubtful: usize,
 }
@@ -71,31 +73,43 @@ pub(super) fn search_one(
         base = generic(k << 44);
         six = six_rods::solved(family, &base, k + 1 == BASES, watch);
     }
-    let mut search = MemberSearch {
-        watch,
-        bound,
-        family,
-        settings,
-        given,
-        nodes: Vec::new(),
-        edges: Vec::new(),
-        found: GenericSolutions {
-            question: question.to_owned(),
-            seed: settings.seed,
-            ..GenericSolutions::default()
-        },
-        cut: None,
-        cuts: 0,
-        traced: 0,
-        doubtful: DOUBTFUL,
+    let begun = |base| {
+        let mut search = MemberSearch {
+            watch,
+            bound,
+            family,
+            settings,
+            given,
+            nodes: Vec::new(),
+            edges: Vec::new(),
+            found: GenericSolutions {
+                question: question.to_owned(),
+                seed: settings.seed,
+                ..GenericSolutions::default()
+            },
+            cut: None,
+            cuts: 0,
+            traced: 0,
+            refuted: false,
+            doubtful: DOUBTFUL,
+        };
+        search.add(base, 1.0)?;
+        Some(search)
     };
-    search.add(base, 1.0)?;
-    match six.flatten() {
-        Some((legwise, infinite)) => {
-            search.nodes[0].legwise = legwise;
-            search.found.general = Some(infinite);
+    let mut search = begun(base)?;
+    if let Some((legwise, infinite)) = six.flatten() {
+        search.nodes[0].legwise = legwise;
+        search.found.general = Some(infinite);
+        return Some(search.result());
+    }
+    search.found.exhausted = search.run();
+    // some are missing, or points of the cut are: another member tells
+    if search.refuted && !given && !watch.is_stopped() {
+        let mut other = begun(generic(BASES << 44))?;
+        other.found.exhausted = other.run();
+        if other.found.complete || other.count() > search.count() {
+            search = other;
         }
-        None => search.found.exhausted = search.run(),
     }
     Some(search.result())
 }
@@ -176,7 +190,7 @@ impl<'a> MemberSearch<'a> {
     fn is_complete(&mut self) -> bool {
         let count = self.count();
         if self.bound != Some(count) && self.traced != count {
-            self.traced = count;
+            (self.traced, self.refuted) = (count, false);
             self.trace(count);
         }
         self.bound == Some(count) || self.found.complete
@@ -201,7 +215,7 @@ impl<'a> MemberSearch<'a> {
             let points = self.nodes[0].legwise.iter();
             let points = points.flat_map(|s| s.points(&self.family.coordinates));
             match cut.holds(&points.collect::<Vec<_>>(), watch) {
-                Some(holds) => self.found.complete = holds,
+                Some(holds) => (self.found.complete, self.refuted) = (holds, !holds),
                 None => self.cut = None,
             }
         }
