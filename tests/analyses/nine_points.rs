@@ -42,6 +42,15 @@ fn the_classical_nine_points_have_64_real_triples() {
         (exact.real, exact.outside, report.designs.len()),
         (192, 0, 192)
     );
+    let text = linkwork::output::text::render(&linkwork::output::Report::document(&report));
+    for said in [
+        "1442 triples of cognates",
+        "64 real",
+        "of their 192 four-bars 0 outside",
+    ] {
+        assert!(text.contains(said), "{text}");
+    }
+    assert!(!text.contains("Stopped"), "{text}");
     let near = |a: [f64; 2], b: [f64; 2]| {
         let size = 1.0 + b[0].abs().max(b[1].abs());
         (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < 1e-6 * size

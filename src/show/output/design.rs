@@ -183,13 +183,6 @@ fn squares(sum: f64) -> String {
 
 /// The completeness of an exact synthesis, in sentences.
 fn all_of(exact: &Exact) -> Vec<String> {
-    if exact.quiet == 0 {
-        return vec![format!(
-            "Stopped while all solutions for generic targets were sought, of which {} had been found; none was followed to these \
-             targets.",
-            exact.classes,
-        )];
-    }
     if let Some(triples) = &exact.triples {
         let lost = match exact.lost {
             0 => String::new(),
@@ -203,7 +196,7 @@ fn all_of(exact: &Exact) -> Vec<String> {
                 count(exact.generic, "four-bar"),
             ),
             format!(
-                "For these points {} of {} arrived, {} went to infinity{lost}: {} different, {} real; of {} real {} outside the \
+                "For these points {} of {} arrived, {} went to infinity{lost}: {} different, {} real; of their {} {} outside the \
                  ranges.",
                 exact.arrived,
                 count(triples.generic, "path"),
@@ -214,6 +207,13 @@ fn all_of(exact: &Exact) -> Vec<String> {
                 exact.outside,
             ),
         ];
+    }
+    if exact.quiet == 0 {
+        return vec![format!(
+            "Stopped while all solutions for generic targets were sought, of which {} had been found; none was followed to these \
+             targets.",
+            exact.classes,
+        )];
     }
     let linkages = match exact.classes == exact.generic {
         true => String::new(),

@@ -351,7 +351,8 @@ pub(super) fn classes(points: &[[f64; 2]; SIZE + 1], watch: &Watch) -> Classes {
                 Err(infinite) => at_infinity += usize::from(infinite),
             }
         }
-        all.arrived = all.arrived.max(arrived);
+        // what one way loses another one may bring
+        all.arrived = all.arrived.max(arrived).max(known.len());
         // a path that seems to go to infinity on one way may arrive on another one
         all.at_infinity = if way == 0 {
             at_infinity
@@ -362,7 +363,6 @@ pub(super) fn classes(points: &[[f64; 2]; SIZE + 1], watch: &Watch) -> Classes {
         if known.len() + infinite >= all.generic || watch.is_stopped() {
             break;
         }
-        // what one way loses another one may bring
         middle = family.member(&mut rng);
         members = vec![&member, &middle, &values];
     }
