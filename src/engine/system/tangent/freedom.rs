@@ -136,9 +136,9 @@ pub struct RegularFreedoms {
 }
 
 impl RegularFreedoms {
-    /// Mobility at the assembled configuration near one given with the fewest freedoms, and of these the fewest local
-    /// ones, so
-    /// that those of a special configuration, as in gimbal lock, do not count. `None` if none is found.
+    /// Mobility at the nearest assembled configuration if all its motions are finite and none is local; otherwise at that near
+    /// the start with the fewest freedoms, and of these the fewest local ones, so that those of a special configuration, as in
+    /// gimbal lock, do not count. `None` if none is found.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         RegularFreedoms::among(mechanism, start, 0..4)
     }

@@ -104,8 +104,11 @@ pub(super) fn search_one(
     }
     search.found.exhausted = search.run();
     // some are missing, or points of the cut are: another member tells
-    if search.refuted && !given && !watch.is_stopped() {
-        let mut other = begun(generic(BASES << 44))?;
+    if search.refuted
+        && !given
+        && !watch.is_stopped()
+        && let Some(mut other) = begun(generic(BASES << 44))
+    {
         other.found.exhausted = other.run();
         if other.found.complete || other.count() > search.count() {
             search = other;
