@@ -20,7 +20,7 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::algebra::Measure;
+use crate::algebra::{Measure, SiUnit};
 use crate::analysis::assembly::AssemblySettings;
 use crate::analysis::rounding::posed;
 use crate::ask::{AskError, Question, Solved, Steering, Value as Written};
@@ -129,6 +129,7 @@ impl Page {
                     MeasureKind::Angle => Measure::Angle,
                     MeasureKind::Length => Measure::Length,
                     MeasureKind::Force => Measure::Force,
+                    MeasureKind::Time => Measure::Other(SiUnit::SECOND),
                 };
                 let value = Written::from(text.as_str()).number(&mechanism, measure);
                 let value = value.map_err(|error| {

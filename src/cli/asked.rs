@@ -2,10 +2,13 @@
 
 use clap::Args;
 use clap::builder::ValueParser;
+use linkwork::algebra::SiUnit;
 use linkwork::ask::{AskError, Demand, Mode, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::output::JsonReport;
-use linkwork::output::complaint::{Complaint, Door, Given, Ranged, Wording, unknown_frame};
+use linkwork::output::complaint::{
+    Complaint, Door, Given, Ranged, Wording, setting, unknown_frame,
+};
 use linkwork::solve::Watch;
 use linkwork::system;
 
@@ -143,6 +146,18 @@ impl Posed {
 
     pub fn ask_with(&mut self, change: impl FnOnce(Question) -> Question) {
         self.question = change(self.question.clone());
+    }
+
+    /// The number that a setting is given, in SI units.
+    pub fn setting(
+        &self,
+        option: &str,
+        text: &str,
+        unit: SiUnit,
+        range: (f64, f64),
+    ) -> Result<f64, Refusal> {
+        let number = setting(self.question.mechanism(), &text.into(), unit, range);
+        number.map_err(|said| refused(&said, option, text, None))
     }
 
     /// Calls the option of a role by another name than that of the role.

@@ -1,7 +1,8 @@
 //! `linkwork simulate`
 
 use clap::Args;
-use linkwork::analysis::simulation::SimulationSettings;
+use linkwork::algebra::SiUnit;
+use linkwork::analysis::simulation::{DURATIONS, SimulationSettings, TOLERANCES};
 use linkwork::ask::Role;
 use linkwork::output::sweep::Picture;
 use linkwork::system::Analysed;
@@ -23,10 +24,10 @@ use super::{Answer, Refusal};
 pub struct Simulate {
     #[command(flatten)]
     forces: Forces,
-    /// Time simulated, in s
-    #[arg(long, value_name = "SECONDS", default_value_t = SimulationSettings::default().duration)]
-    #[arg(value_parser = |text: &str| within(text, f64::MIN_POSITIVE, 1e9), allow_negative_numbers = true)]
-    time: f64,
+    /// Time simulated, in s or with its unit, e.g. --time "500 ms"
+    #[arg(long, value_name = "TIME", default_value_t = SimulationSettings::default().duration.to_string())]
+    #[arg(allow_hyphen_values = true)]
+    time: String,
     /// Number of rows after the first, equal in time
     #[arg(long, value_name = "ROWS", default_value_t = SimulationSettings::default().rows)]
     rows: usize,
@@ -43,9 +44,8 @@ pub struct Simulate {
     point: Vec<String>,
     /// Let joints come back from their limits with this part of their speed, and rest on them once they are slow, instead
     /// of ending there; 0 lets them rest at once
-    #[arg(long, value_name = "FACTOR", value_parser = |text: &str| within(text, 0.0, 1.0))]
-    #[arg(allow_negative_numbers = true)]
-    restitution: Option<f64>,
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
+    restitution: Option<String>,
     /// Go on straight through configurations at which branches of motion meet
     #[arg(long)]
     through: bool,
@@ -53,9 +53,9 @@ pub struct Simulate {
     #[arg(long)]
     linearise: bool,
     /// Error of one step of the integrator, relative, and absolute in rad, characteristic lengths and these per s
-    #[arg(long, value_name = "ERROR", default_value_t = SimulationSettings::default().tolerance)]
-    #[arg(value_parser = |text: &str| within(text, 1e-14, 1e-2), allow_negative_numbers = true)]
-    error: f64,
+    #[arg(long, value_name = "ERROR", default_value_t = SimulationSettings::default().tolerance.to_string())]
+    #[arg(allow_hyphen_values = true)]
+    error: String,
     #[command(flatten)]
     pictures: Pictures,
 }
@@ -68,11 +68,15 @@ impl Analysis for Simulate {
         posed.values(Role::Rate, &self.rate);
         posed.names(Role::Lock, &self.lock);
         posed.names(Role::Point, &self.point);
+        let plain = |option, text: &str, range| posed.setting(option, text, SiUnit::ONE, range);
+        let restitution = self.restitution.as_ref();
         let settings = SimulationSettings {
-            duration: self.time,
+            duration: posed.setting("--time", &self.time, SiUnit::SECOND, DURATIONS)?,
             rows: self.rows,
-            tolerance: self.error,
-            restitution: self.restitution,
+            tolerance: plain("--error", &self.error, TOLERANCES)?,
+            restitution: restitution
+                .map(|part| plain("--restitution", part, (0.0, 1.0)))
+                .transpose()?,
             through: self.through,
             linearised: self.linearise,
             ..SimulationSettings::default()
@@ -87,15 +91,5 @@ impl Analysis for Simulate {
             )?;
         }
         posed.loaded.answer(format, &report)
-    }
-}
-
-/// A number between two others.
-fn within(text: &str, least: f64, most: f64) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
-    match (least..=most).contains(&number) {
-        true => Ok(number),
-        false if least == f64::MIN_POSITIVE => Err(format!("it is more than 0 and at most {most}")),
-        false => Err(format!("it is between {least} and {most}")),
     }
 }

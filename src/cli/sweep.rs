@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
+use linkwork::algebra::SiUnit;
 use linkwork::analysis::sweep::{Law, Pace, Row, SweepSettings};
 use linkwork::ask::{Mode, Question, Role};
 use linkwork::description::MAX_BYTES;
@@ -91,10 +92,10 @@ pub struct Sweep {
     /// The law by which the inputs go through their ranges; rows are equal parts of the time
     #[arg(long, value_name = "LAW", default_value = "constant", value_parser = law())]
     law: Law,
-    /// Duration of the motion, in s
-    #[arg(long, value_name = "SECONDS", default_value_t = Pace::default().duration)]
-    #[arg(allow_negative_numbers = true)]
-    duration: f64,
+    /// Duration of the motion, in s or with its unit, e.g. --duration "500 ms"
+    #[arg(long, value_name = "TIME", default_value_t = Pace::default().duration.to_string())]
+    #[arg(allow_hyphen_values = true)]
+    duration: String,
     #[command(flatten)]
     forces: Forces,
     #[command(flatten)]
@@ -160,12 +161,14 @@ impl Sweep {
         if format == Format::Json && self.steps > MOST_KEPT {
             return Err(words::too_many_kept(self.steps, MOST_KEPT).into());
         }
+        const ANY: (f64, f64) = (f64::MIN, f64::MAX);
         let settings = SweepSettings {
             steps: self.steps,
             follow: self.follow,
             pace: Pace {
                 law: self.law,
-                duration: self.duration,
+                // the library says which are possible
+                duration: posed.setting("--duration", &self.duration, SiUnit::SECOND, ANY)?,
             },
             straightness: self.straight,
             certify: self.certify,

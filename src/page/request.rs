@@ -71,6 +71,7 @@ pub enum MeasureKind {
     Angle,
     Length,
     Force,
+    Time,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]

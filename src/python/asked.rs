@@ -9,17 +9,18 @@ use pyo3::types::{PyBool, PyDict};
 
 use super::QuestionError;
 use super::words::{Keywords, Refused, message, worded};
+use crate::algebra::SiUnit;
 use crate::analysis::assemblies::Wanted;
 use crate::analysis::compare::CompareSettings;
 use crate::analysis::equilibrium::EquilibriumSettings;
-use crate::analysis::simulation::SimulationSettings;
+use crate::analysis::simulation::{DURATIONS, SimulationSettings, TOLERANCES};
 use crate::analysis::singularities::SingularitiesSettings;
 use crate::analysis::sweep::{Law, SweepSettings};
 use crate::analysis::workspace::WorkspaceSettings;
 use crate::ask::{Demand, Mode, Question, Role, Value};
 use crate::description::listed;
 use crate::mechanism::Mechanism;
-use crate::output::complaint::{Complaint, Ranged, Wording};
+use crate::output::complaint::{Complaint, Ranged, Wording, setting};
 use crate::output::diagnostics::Style;
 use crate::solve::Pruning;
 
@@ -156,21 +157,6 @@ fn range(name: &str, given: &Bound<PyAny>) -> PyResult<(Number, Number)> {
     }
 }
 
-/// A number between two others.
-fn within(key: &str, number: f64, least: f64, most: f64) -> PyResult<f64> {
-    match (least..=most).contains(&number) {
-        true => Ok(number),
-        false => {
-            let least = match least == f64::MIN_POSITIVE {
-                true => "more than 0 and at most".to_owned(),
-                false => format!("between {least} and"),
-            };
-            let said = format!("`{key}` is {least} {most}, not {number}");
-            Err(QuestionError::new_err(said))
-        }
-    }
-}
-
 fn law(word: &str) -> PyResult<Law> {
     Law::from_word(word).ok_or_else(|| {
         let said = Complaint::new(format!("`{word}` is no law of motion"));
@@ -258,6 +244,12 @@ impl GivenQuestion {
     }
 
     fn set(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mechanism = self.question.mechanism().clone();
+        let number = |unit, range| {
+            let value = Value::from(&taken::<Number>(key, VALUE, given)?);
+            let number = setting(&mechanism, &value, unit, range);
+            number.map_err(|said| QuestionError::new_err(format!("`{key}`: {}", worded(&said))))
+        };
         let settings = &mut self.settings;
         match key {
             "mode" => {
@@ -286,7 +278,9 @@ impl GivenQuestion {
             "straight" => settings.sweep.straightness = taken(key, FLAG, given)?,
             "steps" => settings.sweep.steps = taken(key, COUNT, given)?,
             "law" => settings.sweep.pace.law = law(&taken::<String>(key, TEXT, given)?)?,
-            "duration" => settings.sweep.pace.duration = taken(key, "a number of seconds", given)?,
+            "duration" => {
+                settings.sweep.pace.duration = number(SiUnit::SECOND, (f64::MIN, f64::MAX))?;
+            }
             "grid" => settings.workspace.nodes = taken(key, "a list of whole numbers", given)?,
             "starts" => {
                 settings.workspace.starts = taken(key, COUNT, given)?;
@@ -294,18 +288,11 @@ impl GivenQuestion {
                 settings.equilibrium.starts = settings.workspace.starts;
             }
             "all" => settings.equilibrium.all = taken(key, FLAG, given)?,
-            "time" => {
-                let time = taken(key, "a number of seconds", given)?;
-                settings.simulation.duration = within(key, time, f64::MIN_POSITIVE, 1e9)?;
-            }
+            "time" => settings.simulation.duration = number(SiUnit::SECOND, DURATIONS)?,
             "rows" => settings.simulation.rows = taken(key, COUNT, given)?,
-            "error" => {
-                let error = taken(key, "a number", given)?;
-                settings.simulation.tolerance = within(key, error, 1e-14, 1e-2)?;
-            }
+            "error" => settings.simulation.tolerance = number(SiUnit::ONE, TOLERANCES)?,
             "restitution" => {
-                let part = taken(key, "a number", given)?;
-                settings.simulation.restitution = Some(within(key, part, 0.0, 1.0)?);
+                settings.simulation.restitution = Some(number(SiUnit::ONE, (0.0, 1.0))?);
             }
             "linearise" => settings.simulation.linearised = taken(key, FLAG, given)?,
             "through" => settings.simulation.through = taken(key, FLAG, given)?,

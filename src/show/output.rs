@@ -46,6 +46,7 @@ pub mod solver;
 pub mod statics;
 pub mod study;
 pub mod sweep;
+pub mod tables;
 pub mod velocity;
 #[cfg(feature = "cli")]
 pub mod workspace;

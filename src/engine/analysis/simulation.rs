@@ -21,6 +21,12 @@ use run::Run;
 pub use linear::Linear;
 pub use speed::Speed;
 
+/// The durations that a simulation takes, in s.
+pub const DURATIONS: (f64, f64) = (f64::MIN_POSITIVE, 1e9);
+
+/// The errors of a step that it takes.
+pub const TOLERANCES: (f64, f64) = (1e-14, 1e-2);
+
 /// Settings of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulationSettings {
@@ -132,11 +138,11 @@ pub enum SimulationEnd {
 pub struct SimulationEvent {
     /// In s.
     pub time: f64,
-    /// The event.
+    /// What happened.
     pub event: Happened,
 }
 
-/// Kinds of events.
+/// What can happen on the way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -184,7 +190,7 @@ pub enum Happened {
 pub struct EnergyBalance {
     /// Kinetic and potential energy at the start.
     pub start: f64,
-    /// At the end.
+    /// The same at the end.
     pub end: f64,
     /// Work of given forces, drives and dampers until then.
     pub supplied: f64,

@@ -3,6 +3,7 @@ import { Background } from "./background";
 import { element, find } from "./elements";
 import type { Model } from "./model";
 import { Plot } from "./plot";
+import { expression } from "./sliders";
 import { onThemeChange } from "./theme";
 import { type Coordinate, type Extremes, Refused, type Swept } from "./types";
 
@@ -91,7 +92,8 @@ export class Drive {
     this.turning.hidden = !of.angle || of.limits !== null;
     const full = !this.turning.hidden;
     const turns = Math.min(Math.max(Math.round(Number(this.turns.value)), 1), 20) || 1;
-    const time = Number(this.time.value.trim().replace(",", "."));
+    const time = this.model.number(expression(this.time.value, false), "time");
+    if (time === null) return;
     const from = this.value(of);
     const low = full ? TURN * Math.floor(from / TURN + 1e-9) : of.range[0];
     const high = full ? low + turns * TURN : of.range[1];

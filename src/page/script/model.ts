@@ -133,8 +133,8 @@ export class Model {
     if (this.frame?.said === said) this.say(said ?? "");
   }
 
-  /** The number of an expression, in rad, m or N; nothing if it is none, which is said. */
-  number(text: string, measure: "angle" | "length" | "force"): number | null {
+  /** The number of an expression, in rad, m, N or s; nothing if it is none, which is said. */
+  number(text: string, measure: "angle" | "length" | "force" | "time"): number | null {
     try {
       return this.ask<{ value: number }>({ do: "number", text, measure }).value;
     } catch (error) {

@@ -2,6 +2,7 @@
 import { button, element, find } from "./elements";
 import type { Model } from "./model";
 import { Plot } from "./plot";
+import { expression } from "./sliders";
 import { onThemeChange } from "./theme";
 import { type LetGo, Refused, type Row, type Scene, type Swept, type Triple } from "./types";
 
@@ -134,7 +135,8 @@ export class Motion {
   /** From where it is, at rest. */
   private async letGo() {
     const number = (field: HTMLInputElement) => Number(field.value.trim().replace(",", "."));
-    const duration = number(this.time);
+    const duration = this.model.number(expression(this.time.value, false), "time");
+    if (duration === null) return;
     if (!(duration > 0 && duration < 1e6)) return say("The time is a number of seconds above 0.");
     const restitution = this.back.value.trim() ? number(this.back) : null;
     if (restitution !== null && !(restitution >= 0 && restitution <= 1)) return say("The part of its speed is a number from 0 to 1; without one the motion ends at a limit.");

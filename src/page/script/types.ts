@@ -270,7 +270,7 @@ export type Request =
   | { do: "hold"; names: string[] }
   | { do: "go"; at: State }
   | { do: "ways" }
-  | { do: "number"; text: string; measure: "angle" | "length" | "force" }
+  | { do: "number"; text: string; measure: "angle" | "length" | "force" | "time" }
   | { do: "show"; at: State; frames?: boolean }
   | { do: "picture"; from?: [number, number] | null; labels?: boolean }
   | { do: "ask"; what: "solve" | "assemblies" | "mobility"; as_filed?: boolean }

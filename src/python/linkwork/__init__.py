@@ -269,7 +269,7 @@ class Mechanism:
         report: Names | None = None,
         follow: bool | None = None,
         law: str | None = None,
-        duration: float | None = None,
+        duration: Value | None = None,
         straight: bool | None = None,
         certify: bool | None = None,
         dwell: Values | None = None,
@@ -282,7 +282,7 @@ class Mechanism:
 
         ``input={"l1": (0.6, 0.8), ...}`` moves several together; ``of`` traces points, ``"left+0.5,0.2"``; ``report``
         adds quantities, ``"transmission, velocity:left"``; ``follow=True`` goes round dead points, and without input
-        along the whole curve. ``law`` and ``duration`` (s) say how the input moves in time; ``certify=True``
+        along the whole curve. ``law`` and ``duration`` (s, or ``"500 ms"``) say how the input moves in time; ``certify=True``
         shows by interval arithmetic that all rows lie on one branch.
         """
         ranges = _given.mapping("input", input)
@@ -384,7 +384,7 @@ class Mechanism:
 
     def simulate(
         self,
-        time: float | None = None,
+        time: Value | None = None,
         *,
         rows: int | None = None,
         rate: Values | None = None,
@@ -399,7 +399,7 @@ class Mechanism:
         without: Names | None = None,
         **given: Any,
     ) -> Rows:
-        """The motion for ``time`` (s) of the mechanism let go, with a numpy array for each column.
+        """The motion for ``time`` (s, or ``"500 ms"``) of the mechanism let go, with a numpy array for each column.
 
         It starts with the rates of ``rate`` (m/s, rad/s) at what is held; ``lock`` keeps joints where they are, or
         drives them with their rates, ``"2*pi*time"``; ``of`` gives positions of points. ``restitution`` sends joints

@@ -5,7 +5,7 @@ mod door;
 mod question;
 
 pub use door::{Door, Ranged, Wording};
-pub use question::{no_point, no_value, suggested, unknown_frame};
+pub use question::{no_point, no_value, setting, suggested, unknown_frame};
 
 use std::ops::Range;
 

@@ -4,8 +4,8 @@ use std::fmt::Display;
 
 use super::door::Wording;
 use super::{Complaint, OptionPart};
-use crate::algebra::Expression;
-use crate::ask::{Demand, Remedy, Role};
+use crate::algebra::{Expression, Measure, SiUnit};
+use crate::ask::{Demand, Remedy, Role, Value};
 use crate::description::{ProblemKind, Scope, listed, nearest};
 use crate::mechanism::{Mechanism, QuantityError};
 use crate::output::quantity::quantity;
@@ -288,6 +288,37 @@ pub(super) fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityErr
             ..said
         },
     }
+}
+
+/// The number of a setting in SI units, written with its unit or without, that lies between two others.
+///
+/// # Errors
+/// The words for a value that does not.
+pub fn setting(
+    mechanism: &Mechanism,
+    value: &Value,
+    unit: SiUnit,
+    (least, most): (f64, f64),
+) -> Result<f64, Complaint> {
+    let measure = match unit {
+        SiUnit::ONE => Measure::Number,
+        unit => Measure::Other(unit),
+    };
+    let text = value.to_string();
+    let number = value.number(mechanism, measure);
+    let number = number.map_err(|error| no_value(&text, &error).at(OptionPart::Name))?;
+    if (least..=most).contains(&number) {
+        return Ok(number);
+    }
+    let range = match least == f64::MIN_POSITIVE {
+        true => format!("more than 0 and at most {}", quantity(most, unit)),
+        false => format!(
+            "between {} and {}",
+            quantity(least, unit),
+            quantity(most, unit)
+        ),
+    };
+    Err(Complaint::new(format!("{text} is not {range}")))
 }
 
 /// The words for a value that is none.
