@@ -257,32 +257,6 @@ impl Drawing<'_> {
         self.floating();
     }
 
-    /// Free joints of platforms that nothing holds to ground.
-    fn floating(&mut self) {
-        for platform in &self.description.platforms {
-            let body = &platform.name.value;
-            let mut held = BTreeSet::from([GROUND]);
-            let mut before = 0;
-            while before < held.len() {
-                before = held.len();
-                let joints = self.axes.joints.iter();
-                let pairs = joints.filter_map(|joint| joint.value.between.as_ref());
-                for [a, b] in pairs {
-                    if held.contains(&*a.value) || held.contains(&*b.value) {
-                        held.extend([&*a.value, &*b.value]);
-                    }
-                }
-            }
-            if !held.contains(&**body) {
-                let nowhere = AxisPlace::Frame(Vec::new());
-                let mut joint = AxisDescription::new(AxisKind::Free, nowhere);
-                joint.between = Some([GROUND, body].map(|of| Spanned::nowhere(of.to_owned())));
-                let name = self.free(&format!("{body} floats"));
-                self.axes.joints.push(Named::new(name, joint));
-            }
-        }
-    }
-
     fn rows(&mut self) {
         for (chain, named) in self.description.chains.iter().enumerate() {
             let convention = self.mechanism.chains()[chain].convention;

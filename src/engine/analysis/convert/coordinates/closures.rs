@@ -1,12 +1,40 @@
-//! Closures as joints that are cut, and as rods.
+//! Closures as joints that are cut, and as rods; what floats.
+
+use std::collections::BTreeSet;
 
 use super::{Drawing, axis_along, is_oblique, point_of, rotations};
 use crate::description::steps::zero;
 use crate::description::{
-    Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Entry, Named, Spanned,
+    Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Entry, GROUND, Named, Spanned,
 };
 
 impl Drawing<'_> {
+    /// Free joints of platforms that nothing holds to ground.
+    pub(super) fn floating(&mut self) {
+        for platform in &self.description.platforms {
+            let body = &platform.name.value;
+            let mut held = BTreeSet::from([GROUND]);
+            let mut before = 0;
+            while before < held.len() {
+                before = held.len();
+                let joints = self.axes.joints.iter();
+                let pairs = joints.filter_map(|joint| joint.value.between.as_ref());
+                for [a, b] in pairs {
+                    if held.contains(&*a.value) || held.contains(&*b.value) {
+                        held.extend([&*a.value, &*b.value]);
+                    }
+                }
+            }
+            if !held.contains(&**body) {
+                let nowhere = AxisPlace::Frame(Vec::new());
+                let mut joint = AxisDescription::new(AxisKind::Free, nowhere);
+                joint.between = Some([GROUND, body].map(|of| Spanned::nowhere(of.to_owned())));
+                let name = self.free(&format!("{body} floats"));
+                self.axes.joints.push(Named::new(name, joint));
+            }
+        }
+    }
+
     pub(super) fn closures(&mut self) {
         for (index, named) in self.description.closures.iter().enumerate() {
             let frames = self.mechanism.closures()[index].frames;
