@@ -2,7 +2,7 @@
 
 use linkwork::algebra::Measure;
 use linkwork::analysis::frames::joint_axes;
-use linkwork::analysis::rounding::{posed, snap};
+use linkwork::analysis::rounding::{posed, posed_from_poses, snap};
 use linkwork::ask::Question;
 use linkwork::description::{AxesDescription, AxisPlace, Description, Entry, rounding_of_text};
 use linkwork::geometry::Vector3;
@@ -138,8 +138,7 @@ fn shipped_mechanisms_with_rounded_coordinates_in_a_tilted_frame_move_as_they_di
 
 #[test]
 fn a_hinge_ten_roundings_aside_leaves_a_structure() {
-    // along a hinge of Bennett's linkage, across one of the plane four-bar out of its plane, nothing may move
-    for (name, joint) in [("bennett", 1), ("goldberg_5r", 2)] {
+    for (name, joint) in SPECIAL.iter().zip([1, 1, 2, 3, 0, 2, 3, 1]) {
         for digits in [6, 4] {
             let aside = |number: usize, point: &mut Vector| {
                 if number == joint {
@@ -156,6 +155,49 @@ fn a_hinge_ten_roundings_aside_leaves_a_structure() {
             );
         }
     }
+}
+
+/// Bricard's plane-symmetric linkage as a table in which the second of two links that mirror each other is longer by so much.
+fn mirrored(longer: f64) -> Description {
+    let text = format!(
+        r#"Mechanism(version: 1, name: "mirrored", convention: Modified,
+        joints: {{ "theta1": Actuated(home: -2.1415926535897932), "theta2": Passive(home: -1.20580), "theta3": Passive(home: 1.72722),
+            "theta4": Passive(home: 2.45665), "theta5": Passive(home: 1.72722) }},
+        chains: {{
+            "links": Chain(rows: [(theta: "theta1"), (alpha: "70 deg", a: 0.8, d: 0.3, theta: "theta2"),
+                (alpha: "55 deg", a: 1.1, d: -0.2, theta: "theta3"), (alpha: "100 deg", a: 0.6, theta: "theta4"),
+                (alpha: "-100 deg", a: 0.6, theta: "theta5")], tip: [T({}, 0, 0.2), Rx("-55 deg")]),
+            "hinge6": Chain(base: [T(-0.8, -0.28191, 0.10261), Rx("70 deg")]),
+        }},
+        closures: {{ "joint6": Revolute("links", "hinge6") }})"#,
+        1.1 + longer
+    );
+    Description::read(&text).unwrap()
+}
+
+#[test]
+fn a_link_of_a_table_ten_roundings_longer_than_its_mirror_is_a_structure() {
+    // five decimals: a rounding is 5 µm
+    let (_, mechanism) = posed(mirrored(0.0)).unwrap();
+    assert!(is_changed(&mechanism));
+    assert_eq!(freedoms(&mechanism), Some(1));
+    for longer in [5e-5, 1e-4] {
+        let (_, mechanism) = posed(mirrored(longer)).unwrap();
+        assert!(!is_changed(&mechanism), "{longer}");
+        assert_eq!(freedoms(&mechanism), None, "{longer}");
+    }
+}
+
+#[test]
+fn a_pose_of_another_file_ten_roundings_aside_leaves_a_structure() {
+    // the same linkage from quaternions and positions of four decimals
+    let table = |text: &str| Description::read(text).unwrap();
+    let near = table(&mirrored(0.0).to_ron().unwrap());
+    let (_, mechanism) = posed_from_poses(near, 5e-5).unwrap();
+    assert_eq!(freedoms(&mechanism), Some(1));
+    let (_, mechanism) = posed_from_poses(mirrored(1e-3), 5e-5).unwrap();
+    assert!(!is_changed(&mechanism), "{:?}", mechanism.rounding());
+    assert_eq!(freedoms(&mechanism), None);
 }
 
 /// Pins through points to a micrometre, of a plane linkage of 20, 60, 80, 100 mm in a tilted plane.

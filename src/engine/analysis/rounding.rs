@@ -9,7 +9,9 @@
 
 mod directions;
 mod explained;
+mod lengths;
 mod parts;
+mod poses;
 mod snap;
 mod walk;
 
@@ -18,7 +20,6 @@ use std::path::Path;
 use crate::algebra::Measure;
 use crate::description::{Description, Literal, LoadError, Problem, roundings};
 use crate::mechanism::{Configuration, Mechanism, NumberChange, Rounded, Rounding};
-use crate::number::sorting::sort_by;
 use crate::number::tolerance::SOLVED;
 use crate::solve::{LeastSquares, LevenbergMarquardt};
 use crate::system::{Bundle, Bundled, Gap};
@@ -45,7 +46,57 @@ const MOST_UNKNOWNS: usize = 150;
 /// All problems of the description.
 pub fn posed(description: Description) -> Result<(Description, Mechanism), Vec<Problem>> {
     let mechanism = Mechanism::new(&description)?;
-    Ok(match Numbers::of(&description, &mechanism).nearest() {
+    let (literals, length) = (description.literals(), mechanism.characteristic_length());
+    let off = match mechanism.tolerance() {
+        Some(tolerance) => inexact(&literals, |i| match literals[i].measure {
+            Measure::Length | Measure::Open => tolerance,
+            _ => tolerance / length,
+        }),
+        None => roundings(&literals, length),
+    };
+    Ok(exact(description, mechanism, literals, off))
+}
+
+/// As [`posed`], of a description whose numbers were computed from poses in another file, the numbers of which are off by at
+/// most this, of lengths in m.
+///
+/// A quaternion with parts off by ε turns by up to 2√3·ε, so that an angle between two frames is off by about 4·ε. A length is
+/// off by the positions at its ends, 2·ε; in tables a common normal also by that angle over the offsets along the axes at its
+/// ends, an offset by it over the normals at its ends, both over sin α of these.
+///
+/// # Errors
+/// All problems of the description.
+pub fn posed_from_poses(
+    description: Description,
+    off: f64,
+) -> Result<(Description, Mechanism), Vec<Problem>> {
+    let mechanism = Mechanism::new(&description)?;
+    let literals = description.literals();
+    let sizes = poses::sizes(&description, &literals);
+    let off = inexact(&literals, |i| sizes[i] * off);
+    Ok(exact(description, mechanism, literals, off))
+}
+
+/// The most by which each literal is off; zeros are exact but in vectors.
+fn inexact(literals: &[Literal], size: impl Fn(usize) -> f64) -> Vec<Option<f64>> {
+    let is_inexact = |of: &Literal| of.written != 0.0 || of.in_vector;
+    let all = literals.iter().enumerate();
+    all.map(|(i, of)| is_inexact(of).then(|| size(i))).collect()
+}
+
+fn exact(
+    description: Description,
+    mechanism: Mechanism,
+    literals: Vec<Literal>,
+    off: Vec<Option<f64>>,
+) -> (Description, Mechanism) {
+    let numbers = Numbers {
+        description: &description,
+        mechanism: &mechanism,
+        literals,
+        off,
+    };
+    match numbers.nearest() {
         None => (description, mechanism),
         Some(FoundClosing::Undecided(change)) => {
             let mechanism = mechanism.with_rounding(Rounding::Undecided { change });
@@ -53,12 +104,10 @@ pub fn posed(description: Description) -> Result<(Description, Mechanism), Vec<P
         }
         Some(FoundClosing::Nearest(found)) => {
             let (description, mechanism, rounded) = *found;
-            (
-                description,
-                mechanism.with_rounding(Rounding::Nearest(rounded)),
-            )
+            let mechanism = mechanism.with_rounding(Rounding::Nearest(rounded));
+            (description, mechanism)
         }
-    })
+    }
 }
 
 /// Reads a mechanism file; where its loops close only within the rounding of its numbers, as the nearest linkage that
@@ -86,34 +135,14 @@ enum FoundClosing {
     Nearest(Box<(Description, Mechanism, Rounded)>),
 }
 
-/// Numbers that close the loops of a part exactly.
+/// What closes the loops of a part exactly.
 enum ClosedPart {
     Undecided(f64),
     /// Literals with their values, and the largest gaps with those of the file.
     Nearest(Vec<(usize, f64)>, Gap),
 }
 
-impl<'a> Numbers<'a> {
-    fn of(description: &'a Description, mechanism: &'a Mechanism) -> Self {
-        let literals = description.literals();
-        let length = mechanism.characteristic_length();
-        let allowed = |of: &Literal, tolerance: f64| match of.measure {
-            _ if of.written == 0.0 && !of.in_vector => None,
-            Measure::Length | Measure::Open => Some(tolerance),
-            _ => Some(tolerance / length),
-        };
-        let off = match mechanism.tolerance() {
-            Some(tolerance) => literals.iter().map(|of| allowed(of, tolerance)).collect(),
-            None => roundings(&literals, length),
-        };
-        Numbers {
-            description,
-            mechanism,
-            literals,
-            off,
-        }
-    }
-
+impl Numbers<'_> {
     /// Numbers of a part as a drawing means them where they differ by their rounding only: angles that are multiples of 15°,
     /// lengths that are nothing, so that axes are parallel, perpendicular, or meet.
     fn meant(&self, part: &LinkedLoops) -> Vec<(usize, f64)> {
@@ -130,32 +159,6 @@ impl<'a> Numbers<'a> {
             (near && whole != value).then_some((i, whole))
         };
         part.numbers.iter().filter_map(meant).collect()
-    }
-
-    /// Lengths of a part that are equal but for their rounding, with their mean.
-    fn equal(&self, part: &LinkedLoops) -> Vec<(usize, f64)> {
-        let value = |i: usize| self.literals[i].value();
-        let off = |i: usize| EXPLAINED * self.off[i].unwrap_or(0.0);
-        let is_length = |&i: &usize| {
-            let of = &self.literals[i];
-            of.measure == Measure::Length && !of.in_vector && value(i).abs() > off(i)
-        };
-        let mut lengths: Vec<usize> = part.numbers.iter().copied().filter(is_length).collect();
-        sort_by(&mut lengths, |a, b| {
-            value(*a).abs().total_cmp(&value(*b).abs())
-        });
-        let alike = |a: &usize, b: &usize| value(*b).abs() - value(*a).abs() <= off(*a) + off(*b);
-        let groups = lengths.chunk_by(alike).filter(|group| group.len() > 1);
-        let equal = groups.flat_map(|group| {
-            let sum: f64 = group.iter().map(|&i| value(i).abs()).sum();
-            let mean = sum / group.len() as f64;
-            let near = group
-                .iter()
-                .all(|&i| (value(i).abs() - mean).abs() <= off(i));
-            let of_group = group.iter().map(move |&i| (i, mean.copysign(value(i))));
-            of_group.filter(move |(i, mean)| near && *mean != value(*i))
-        });
-        equal.collect()
     }
 
     fn nearest(&self) -> Option<FoundClosing> {
@@ -190,21 +193,25 @@ impl<'a> Numbers<'a> {
     }
 
     fn nearest_of(&self, part: &LinkedLoops) -> Option<ClosedPart> {
-        let plain = self.closed(part, &[])?;
-        if let ClosedPart::Undecided(_) = plain {
-            return Some(plain);
+        if !self.is_rounded(part)? {
+            return None;
         }
         let mut meant = self.meant(part);
         meant.extend(self.parallel(part));
-        let mut all = self.equal(part);
-        if !all.is_empty() {
-            all.extend(&meant);
-        }
-        let wanted = [all, meant].into_iter().filter(|meant| !meant.is_empty());
-        let found = wanted.map(|meant| self.closed(part, &meant));
+        let wanted = [self.equal(part, &meant), meant];
+        let found = wanted.into_iter().filter(|meant| !meant.is_empty());
+        let found = found.map(|meant| self.closed(part, &meant));
         let mut found =
             found.filter_map(|found| found.filter(|of| matches!(of, ClosedPart::Nearest(..))));
-        Some(found.next().unwrap_or(plain))
+        found.next().or_else(|| self.closed(part, &[]))
+    }
+
+    /// True if the numbers of a part leave it open, but not by more than rounding explains.
+    fn is_rounded(&self, part: &LinkedLoops) -> Option<bool> {
+        let places: Vec<usize> = part.numbers.iter().copied().collect();
+        let (named, numbers) = self.named(&places, &[])?;
+        let bundle = Bundle::new(&named, part.held(&named), &numbers).only(&part.closures);
+        Some(RoundedDirections::new(&bundle, &named, &bundle.file(), false).is_some())
     }
 
     /// The mechanism in which literals are parameters, these with the most that each is off, and others have given values.
@@ -330,15 +337,17 @@ impl RoundedDirections<'_> {
             numbers: file.to_vec(),
             configurations: configurations.to_vec(),
         };
-        if file.is_empty() {
-            return Some((at, Vec::new(), Vec::new()));
-        }
         let search = LevenbergMarquardt {
             damping: 0.0,
             tolerance: 1e-13,
             steps: 20,
         };
         let nearest = self.bundle.clone().near(file.to_vec());
+        // without numbers to change they must close as they are
+        if file.is_empty() {
+            let closes = nearest.misfit(&at).equations.sqrt() < SOLVED;
+            return closes.then(|| (at, Vec::new(), Vec::new()));
+        }
         let mut cut = self.cut;
         for _ in 0..ROUNDS {
             let nearest = nearest.clone().redundant(self.rank, cut);

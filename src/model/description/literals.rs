@@ -89,10 +89,13 @@ const NOTHING: f64 = 1e-8;
 /// For each literal the most by which it is off if it was rounded when it was written, in m or rad or without unit; `None` if
 /// it is exact.
 ///
-/// Numbers of one kind and unit are written alike: to as many decimals as the one with most, or to as many digits; trailing
-/// zeros are not told from digits that are missing. A number with all digits of a double is exact, and so are short ones like
-/// `2` or `90 deg` unless others of their kind are long. A number that is next to nothing may be nothing.
+/// Numbers of one kind and unit are written alike: to as many decimals as the one with most, or, where several long ones have
+/// fewer decimals, to as many digits; trailing zeros are not told from digits that are missing. A number with all digits of a
+/// double is exact, and so are short ones like `2` or `90 deg` unless others of their kind are long. A number that is next to
+/// nothing may be nothing.
 pub fn roundings(literals: &[Literal], length: f64) -> Vec<Option<f64>> {
+    /// One long number with fewer decimals has lost a zero.
+    const SEVERAL: usize = 2;
     let is_alike = |a: &Literal, b: &Literal| a.unit == b.unit && a.measure == b.measure;
     let rounded = |of: &Literal| of.written != 0.0 && digits(of.written).0 < ALL_DIGITS;
     let scale = |of: &Literal| match of.measure {
@@ -104,19 +107,21 @@ pub fn roundings(literals: &[Literal], length: f64) -> Vec<Option<f64>> {
         if size > 0.0 && size < NOTHING * scale(of) {
             return Some(size);
         }
-        let alike = literals
-            .iter()
-            .filter(|other| is_alike(of, other) && rounded(other));
-        let all = alike.map(|other| digits(other.written));
-        let (most, last) = all.reduce(|(n, p), (m, q)| (n.max(m), p.min(q)))?;
+        let alike = literals.iter();
+        let alike = alike.filter(|other| is_alike(of, other) && rounded(other));
+        let alike: Vec<(i32, i32)> = alike.map(|other| digits(other.written)).collect();
+        let most = alike.iter().map(|(count, _)| *count).max()?;
+        let last = alike.iter().map(|(_, power)| *power).min()?;
+        let is_long = |(count, power): &&(i32, i32)| *count >= most - 1 && *power > last;
         let power = match of.written {
             _ if most <= CHOSEN => return None,
             0.0 if of.in_vector => last,
             x if x == 0.0 || !rounded(of) => return None,
-            x => {
+            x if alike.iter().filter(is_long).count() >= SEVERAL => {
                 let (count, own) = digits(x);
                 own.min(last.max(own + count - most))
             }
+            _ => last,
         };
         let off = 0.5 * 10.0_f64.powi(power) * of.size();
         let beside = off / scale(of);

@@ -97,8 +97,21 @@ impl Svd {
         if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
             return None;
         }
-        let svd = matrix.clone().svd(true, true);
-        let (u, v) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
+        // of a tall matrix the triangle, which has the same values and right vectors
+        let (svd, u) = match 4 * matrix.nrows() > 5 * matrix.ncols() {
+            true => {
+                let (q, r) = matrix.clone().qr().unpack();
+                let svd = r.svd(true, true);
+                let u = q * svd.u.as_ref()?;
+                (svd, u)
+            }
+            false => {
+                let mut svd = matrix.clone().svd(true, true);
+                let u = svd.u.take()?;
+                (svd, u)
+            }
+        };
+        let (u, v) = (&u, svd.v_t.as_ref()?);
         let mut scaled = v.clone();
         for (mut row, value) in scaled.row_iter_mut().zip(&svd.singular_values) {
             row *= *value;

@@ -5,7 +5,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Equations;
 use crate::system::{Bundle, Bundled, System, Work};
 
-/// The first direction that rounding may have closed, and the number of equations that resist the others.
+/// Where directions begin that rounding may have closed, and how many equations resist the others.
 pub(super) struct RoundedDirections<'a> {
     pub bundle: &'a Bundle<'a>,
     file: &'a [f64],
@@ -29,7 +29,7 @@ const STRIDE: f64 = 0.2;
 /// numbers that differ little from one configuration to the next are told apart.
 const STEPS: [usize; 2] = [16, 6];
 
-/// Amounts that rounding leaves open and closes, beside the sum of all roundings in a row: the second is larger where the closures
+/// What rounding leaves open and closes, beside the sum of all roundings in a row: the second is larger where the closures
 /// are badly conditioned.
 const SLACK: f64 = 10.0;
 
@@ -43,6 +43,8 @@ fn nearest(
 ) -> (Configuration<f64>, f64, Svd) {
     const ROUNDS: usize = 40;
     const LONGEST: f64 = 0.3;
+    /// A step that brings nothing and is shorter is the last.
+    const SHORT: f64 = 1e-8;
     let mut best: Option<(f64, Configuration<f64>, f64, Svd)> = None;
     let mut stale = 0;
     for _ in 0..ROUNDS {
@@ -66,7 +68,7 @@ fn nearest(
         {
             best = Some((size.squares, at.clone(), size.largest, svd));
         }
-        if stale > 3 || long < 1e-15 || !long.is_finite() {
+        if stale > 3 || stale > 0 && long < SHORT || long < 1e-15 || !long.is_finite() {
             break;
         }
         let factor = (LONGEST / long).min(1.0);
