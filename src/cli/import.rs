@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::analysis::rounding::posed;
+use linkwork::analysis::rounding::posed_from_poses;
 use linkwork::ask::Question;
 use linkwork::description::{
     self, Convention, Description, Displacement, Entry, LoadError, MAX_BYTES, ProblemKind, Role,
@@ -78,6 +78,7 @@ impl Import {
         let found = inside(&fewer, &imported.outside);
         if let Some(found) = &found
             && imported.outside.is_empty()
+            && !found.moved.is_empty()
         {
             let joints = found.moved.clone();
             imported.remarks.push(Remark::Moved { joints });
@@ -121,6 +122,11 @@ impl Import {
 
 /// The description with other home values, in m or rad.
 fn with_homes(description: &Description, homes: &[(String, f64)]) -> Description {
+    with_entries(description, written_values(description, homes).into_iter())
+}
+
+/// Values of joints as they are written.
+fn written_values(description: &Description, values: &[(String, f64)]) -> Vec<(String, Entry)> {
     let slides = Mechanism::new(description).map_or(Vec::new(), |mechanism| {
         let slides = mechanism.joints().iter().filter(|of| !of.kind.is_angle());
         slides.map(|joint| joint.name.clone()).collect()
@@ -129,7 +135,7 @@ fn with_homes(description: &Description, homes: &[(String, f64)]) -> Description
         let entry = [Entry::angle, Entry::length][usize::from(slides.contains(name))];
         (name.clone(), entry(*value))
     };
-    with_entries(description, homes.iter().map(entry))
+    values.iter().map(entry).collect()
 }
 
 fn with_entries(
@@ -167,11 +173,22 @@ struct FoundHome {
     moved: Vec<String>,
     joints: Vec<(String, f64)>,
     platforms: Vec<(String, Vec<Displacement>)>,
+    /// Lower and upper limits beyond which joints are by rounding.
+    reached: [Vec<(String, f64)>; 2],
 }
 
 impl FoundHome {
     fn applied(&self, description: &Description) -> Description {
         let mut description = with_homes(description, &self.joints);
+        for (end, reached) in self.reached.iter().enumerate() {
+            for (name, value) in written_values(&description, reached) {
+                let mut joints = description.joints.iter_mut();
+                let of = joints.find(|joint| joint.name.value == name);
+                if let Some((low, high)) = of.and_then(|of| of.value.limits.as_mut()) {
+                    *[low, high][end] = value;
+                }
+            }
+        }
         for (name, home) in &self.platforms {
             let mut platforms = description.platforms.iter_mut();
             if let Some(platform) = platforms.find(|platform| platform.name.value == *name) {
@@ -211,7 +228,8 @@ fn inside(description: &Description, outside: &[(String, f64)]) -> Option<FoundH
             parts.map(|part| within(&mechanism, question.clone(), first.clone(), *part));
         homes.find_map(|home| home)
     })?;
-    (!found.moved.is_empty() || !outside.is_empty()).then_some(found)
+    let is_reached = found.reached.iter().any(|end| !end.is_empty());
+    (!found.moved.is_empty() || !outside.is_empty() || is_reached).then_some(found)
 }
 
 fn closed(question: &Question) -> Option<Configuration<f64>> {
@@ -226,6 +244,8 @@ fn within(
     mut found: Configuration<f64>,
     part: f64,
 ) -> Option<FoundHome> {
+    /// So near to a limit a joint is at it, in rad or m.
+    const AT: f64 = 1e-6;
     let mut moved = Vec::new();
     for _ in 0..=mechanism.joints().len() {
         let joints = mechanism.joints().iter().zip(&found.joints);
@@ -233,11 +253,23 @@ fn within(
             let (low, high) = joint.limits?;
             let margin = part * (high - low);
             let to = value.clamp(low + margin, high - margin);
-            (*value < low || *value > high).then_some((joint.role, &joint.name, to))
+            (*value < low - AT || *value > high + AT).then_some((joint.role, &joint.name, to))
         });
         // what is driven is held anyway
         let beyond = beyond.min_by_key(|(role, ..)| *role != Role::Actuated);
         let Some((_, name, to)) = beyond else {
+            let beyond = |is_beyond: fn(f64, (f64, f64)) -> bool| {
+                let beyond = joints
+                    .clone()
+                    .filter(|(joint, value)| joint.limits.is_some_and(|of| is_beyond(**value, of)));
+                beyond
+                    .map(|(joint, value)| (joint.name.clone(), *value))
+                    .collect()
+            };
+            let reached = [
+                beyond(|value, (low, _)| value < low),
+                beyond(|value, (_, high)| value > high),
+            ];
             let joints = joints.map(|(joint, value)| (joint.name.clone(), *value));
             let platforms = mechanism.platforms().iter().zip(&found.platforms);
             let platforms = platforms.map(|(of, pose)| {
@@ -248,6 +280,7 @@ fn within(
                 moved,
                 joints: joints.collect(),
                 platforms: platforms.collect(),
+                reached,
             });
         };
         moved.push(name.clone());
@@ -258,32 +291,16 @@ fn within(
 }
 
 /// The description of the nearest linkage that closes exactly where loops close within the rounding of the numbers of a file
-/// of another program, with what is said about it. A pose there is a product of many numbers.
+/// of another program, with what is said about it.
 fn exact(description: &Description, text: &str) -> (Description, String) {
-    const PRODUCT: f64 = 4.0;
-    let rounded = rounding_of_text(text);
-    let length = Mechanism::new(description)
-        .ok()
-        .map(|of| of.characteristic_length());
-    let tolerance = rounded
-        .zip(length)
-        .map(|(off, length)| PRODUCT * off * length.max(0.25));
-    let tolerant = tolerance.and_then(|tolerance| {
-        description
-            .clone()
-            .with_tolerance(&format!("{tolerance} m"))
-    });
-    let found = tolerant.and_then(|tolerant| posed(tolerant).ok());
-    match found
+    let found =
+        rounding_of_text(text).and_then(|off| posed_from_poses(description.clone(), off).ok());
+    let found = found
         .as_ref()
-        .map(|(exact, mechanism)| (exact, mechanism.rounding()))
-    {
+        .map(|(of, mechanism)| (of, mechanism.rounding()));
+    match found {
         Some((exact, Some(rounding @ Rounding::Nearest(_)))) => {
-            let exact = Description {
-                tolerance: None,
-                ..exact.clone()
-            };
-            (exact, lines("note", [sentence(rounding)]))
+            (exact.clone(), lines("note", [sentence(rounding)]))
         }
         _ => (description.clone(), String::new()),
     }

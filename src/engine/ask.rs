@@ -189,6 +189,11 @@ impl Question {
         self.demand(Demand::new(Role::Wrench, frame, components))
     }
 
+    /// Applies a force or a moment written `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
+    pub fn wrench_text(self, frame: impl Into<String>, text: impl Into<String>) -> Self {
+        self.demand(Demand::new(Role::Wrench, frame, [text.into()]))
+    }
+
     /// Keeps generic solutions where they are found again.
     pub fn store(mut self, store: Arc<dyn Store>) -> Self {
         self.store = Some(store);
@@ -239,7 +244,7 @@ impl Question {
     }
 
     /// A demand on a joint in place of one on an output that follows it, at the values where the joint has these.
-    /// Wrong values are refused when the question is asked.
+    /// What is wrong with values is said when the question is asked.
     fn led(&self, demand: Demand) -> Demand {
         let Some(follower) = self.mechanism.follower(&demand.name) else {
             return demand;

@@ -9,6 +9,7 @@ mod mechanism_tree;
 mod mjcf;
 mod names;
 mod page;
+mod pins;
 mod problem;
 mod remark;
 mod rods;

@@ -955,3 +955,37 @@ fn a_part_of_a_model_and_a_name_given_twice_are_refused() {
     let twice = refused(twice);
     assert!(twice.contains("there are two bodies `a`"), "{twice}");
 }
+
+/// A four-bar of 0.1, 0.2, 0.15 and 0.2 m whose last two links lie beside each other on their pin.
+fn beside(apart: f64, axis: &str) -> String {
+    format!(
+        r#"<mujoco><compiler angle="radian"/><worldbody>
+        <body name="crank"><joint name="crank" axis="0 0 1"/>
+            <body name="coupler" pos="0 0.1 0"><joint name="A" axis="0 0 1"/><site name="end" pos="0.2 0 0"/></body></body>
+        <body name="rocker" pos="0.2 0 0"><joint name="D" axis="{axis}"/><site name="top" pos="0 0.15 {apart}"/></body>
+        </worldbody><equality><connect name="B" site1="end" site2="top"/></equality>
+        <actuator><motor joint="crank"/></actuator></mujoco>"#
+    )
+}
+
+/// Plane links that lie beside each other are joined by one pin; what a motion could close, or lies far away, is as it is drawn.
+#[test]
+fn links_beside_each_other_are_on_one_pin() {
+    let (imported, question) = read(&beside(0.002, "0 0 1"));
+    assert!(remarks(&imported).contains("`B` has points up to 2 mm apart along the hinges"));
+    assert_eq!(freedoms(&question), Some(1));
+    // Freudenstein: coupler and rocker close the triangle over the way from crank to ground
+    let report = solved(&question);
+    let (x, y) = (
+        0.1 * -value(&report, "crank").sin(),
+        0.1 * value(&report, "crank").cos(),
+    );
+    let turned = value(&report, "D");
+    let (u, v) = (0.2 - 0.15 * turned.sin(), 0.15 * turned.cos());
+    near((u - x).hypot(v - y), 0.2);
+    for (apart, axis) in [(0.002, "0 0.1 1"), (0.05, "0 0 1")] {
+        let (imported, question) = read(&beside(apart, axis));
+        assert!(!remarks(&imported).contains("apart"), "{apart}");
+        assert!(!solved(&question).is_assembled(), "{apart} {axis}");
+    }
+}

@@ -399,7 +399,7 @@ fn with_a_wrong_sign(entry: &Entry) -> Vec<Entry> {
 fn refuted(description: &Description) -> bool {
     let mechanism = Mechanism::new(description).unwrap();
     let settings = CompareSettings {
-        samples: 4,
+        samples: 12,
         ..CompareSettings::default()
     };
     let report = compare(&mechanism, &settings, &Watch::none());

@@ -203,7 +203,7 @@ pub fn equilibrium(
     Analysed::Closed(report)
 }
 
-/// Data shared by all starts of a search.
+/// What every start of a search shares.
 struct Start<'a> {
     mechanism: &'a Mechanism,
     load: &'a Load,

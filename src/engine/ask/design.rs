@@ -32,7 +32,7 @@ const IMPROVED: usize = 6;
 pub struct Design {
     /// The mechanism.
     pub mechanism: Description,
-    /// Its targets and requirements.
+    /// What it shall do.
     pub asked: DesignDescription,
     /// Seed of the search.
     pub seed: u64,

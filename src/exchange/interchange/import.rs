@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::mjcf::{self, Files, NotRead};
 use super::names::fit;
 use super::page::{document, strict};
+use super::pins::on_one_pin;
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
 use super::rods::without_rods;
@@ -130,7 +131,7 @@ pub fn import(
     let text = &strict(text.to_owned());
     let files = &|file: &str| files(file).map(strict);
     let page = document(text).map_err(|problem| wrong(vec![problem]))?;
-    let (tree, mut remarks) = match page.root_element().tag_name().name() {
+    let (mut tree, mut remarks) = match page.root_element().tag_name().name() {
         "robot" => urdf::read(text).map_err(wrong)?,
         "mujoco" => {
             let spliced = mjcf::with_copies(mjcf::splice(name, text, files)?)?;
@@ -145,6 +146,7 @@ pub fn import(
         }
     };
     let kept = kept_frames(&tree, loops, settings).map_err(whole)?;
+    remarks.extend(on_one_pin(&mut tree));
     let (tree, rods) = without_rods(&tree, &kept);
     remarks.extend(rods);
     let source = Path::new(name)

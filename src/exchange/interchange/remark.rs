@@ -139,6 +139,13 @@ pub enum Remark {
         if names.len() == 1 { "distance" } else { "distances" }
     )]
     Rods { names: Vec<String> },
+    /// Points of plane loops that lie apart along their pins, by at most so much in m.
+    #[error(
+        "{} points up to {} mm apart along the hinges: the links lie beside each other on one pin",
+        named_few(names, ["has", "have"]),
+        (most * 1e5).round() / 100.0
+    )]
+    Beside { names: Vec<String>, most: f64 },
     /// Home values that were moved inside the limits.
     #[error(
         "the home {} of {} outside the limits: moved inside",

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Entry, Named, Spanned};
 use crate::algebra::{Expression, ParseError};
 
-/// Targets and requirements of a mechanism, and its numbers that may vary. Everything is in the order of the file.
+/// What a mechanism shall do, and which of its numbers may vary. Everything is in the order of the file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DesignDescription {
     /// Name of the design.
@@ -67,7 +67,7 @@ pub enum DesignPart {
     AtMost(usize),
     /// An output.
     Output(usize),
-    /// The figure to be small or great.
+    /// What shall be small or great.
     Goal,
 }
 

@@ -5,7 +5,7 @@ use serde::ser::{
     Serialize, SerializeStruct, SerializeStructVariant, SerializeTupleVariant, Serializer,
 };
 
-use super::structures::{axes_structures, load_structures, part_structures};
+use super::schema::{axes_structures, load_structures, part_structures};
 use super::*;
 
 impl Description {
@@ -69,7 +69,7 @@ impl<S: Serializer> WrittenFields<S> {
     }
 }
 
-/// Writing of structures.
+/// How structures are written.
 macro_rules! writable {
     ($($(#[$about:meta])* $name:ident = $form:ident $($by:ident)? $word:literal, $said:literal {
         $($(#[$doc:meta])* $field:ident: $type:ty = $key:tt $(as $expected:expr)?,)+

@@ -101,7 +101,7 @@ impl<T: Copy> Configuration<T> {
         self.joints.iter().copied().chain(poses)
     }
 
-    /// As above, by mutable reference.
+    /// The same, to be changed.
     pub fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
         let poses = self.platforms.iter_mut();
         let poses =

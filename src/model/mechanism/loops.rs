@@ -1,4 +1,4 @@
-//! Joints and platforms on which a closure depends.
+//! What a closure depends on.
 
 use super::frames::joints_of;
 use super::model::Closure;

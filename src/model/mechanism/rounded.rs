@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The effect of the rounding of a file's numbers on its loops, where it has one.
+/// What the rounding of a file's numbers means for its loops, where it means anything.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "rounding", rename_all = "snake_case")]
@@ -16,7 +16,7 @@ pub enum Rounding {
     },
 }
 
-/// The changes by which loops close exactly.
+/// What was changed so that loops close exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Rounded {
@@ -38,7 +38,7 @@ pub struct NumberChange {
     pub from: f64,
     /// The value with which the linkage closes.
     pub to: f64,
-    /// True for a length (m); otherwise it is an angle (rad) or a part of a direction.
+    /// Whether it is a length (m); otherwise it is an angle (rad) or a part of a direction.
     pub is_length: bool,
 }
 

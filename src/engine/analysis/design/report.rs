@@ -24,7 +24,7 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// Residual of a target.
+    /// What is left of a target.
     pub fn of(target: &Target, deviation: f64) -> Self {
         Deviation {
             position: target.configuration + 1,
@@ -156,7 +156,7 @@ pub struct Design {
     pub sensitivities: Vec<f64>,
     /// Defects; none for a design that does what it shall.
     pub defects: Vec<Defect>,
-    /// Motion of the driving joint.
+    /// How the driving joint moves.
     pub driver: Moves,
     /// Number of starts that led to it.
     pub reached: usize,
@@ -182,7 +182,7 @@ pub struct Cognate {
     pub design: Option<usize>,
 }
 
-/// The design nearest to targets that none meets.
+/// What comes nearest to targets that no design meets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Nearest {
@@ -217,7 +217,7 @@ pub struct DesignReport {
     pub driver: Option<String>,
     /// Different designs: first those without defects, each group by its sum of squares.
     pub designs: Vec<Design>,
-    /// The figure that is improved.
+    /// What is improved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
     /// True for a mechanism with several freedoms: designs are judged on straight moves of the driven joints from each position to
@@ -228,10 +228,10 @@ pub struct DesignReport {
     /// Counts of an exact synthesis, where there are as many targets as unknowns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exact: Option<Exact>,
-    /// The nearest design where no exact solution is real and in the ranges.
+    /// What comes nearest where no exact solution is real and in the ranges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest: Option<Nearest>,
-    /// The reason for which not all exact solutions were sought where there are as many targets as unknowns.
+    /// Why not all exact solutions were sought where there are as many targets as unknowns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_all: Option<NotAll>,
     /// Number of random starts from which a search ran.

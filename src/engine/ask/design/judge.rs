@@ -43,7 +43,7 @@ struct FigureBound {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
     pub defects: Vec<Defect>,
-    /// Motion of the driving joint.
+    /// How the driving joint moves.
     pub moves: Moves,
     /// The value of what is improved; `None` for a design with defects, or if it is not determined everywhere.
     pub goal: Option<f64>,
@@ -189,13 +189,13 @@ impl<'a> Judge<'a> {
         description.to_ron().unwrap_or_default()
     }
 
-    /// Cost of a design: the value of the goal, negative if it shall be great, or more than any goal where bounds are missed.
+    /// What a design costs: the value of the goal, negative if it shall be great, or more than any goal where bounds are missed.
     /// `None` for other defects.
     pub fn cost(&self, found: &FoundEnd) -> Option<f64> {
         self.costs(&self.verdict(found))
     }
 
-    /// Cost of a design, of several freedoms by a few places of its moves alone: a search judges many.
+    /// What a design costs, of several freedoms by a few places of its moves alone: a search judges many.
     pub fn estimate(&self, found: &FoundEnd) -> Option<f64> {
         let Some(held) = &self.held else {
             return self.cost(found);

@@ -44,7 +44,7 @@ impl Question {
         }
     }
 
-    /// Quantities where held coordinates move at these rates.
+    /// What is measured where what is held moves at these rates.
     pub(in crate::ask) fn metered<'q>(
         &self,
         question: system::Question<'q>,

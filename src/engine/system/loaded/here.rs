@@ -1,4 +1,4 @@
-//! Positions and rates at a configuration that loads depend on.
+//! What a load depends on at a configuration.
 
 use super::{LoadPlace, Loaded, Moving};
 use crate::geometry::Vector3;

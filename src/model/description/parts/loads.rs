@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::{Displacement, Entry, Named, Spanned};
 use crate::algebra::{Expression, words};
-use crate::description::structures::{declared, load_structures};
+use crate::description::schema::{declared, load_structures};
 
 load_structures!(declared);
 
@@ -37,7 +37,7 @@ words! {
         Sphere = "Sphere",
     }
 
-    /// Forces between bodies, at joints or on a body.
+    /// What acts between bodies, at joints or on a body.
     LoadKind {
         /// A spring, a damper or both, between two points or at a joint.
         Spring = "Spring",

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::description::piece::{Piece, PieceShape};
-use crate::description::structures::{axes_structures, load_structures, part_structures};
+use crate::description::schema::{axes_structures, load_structures, part_structures};
 
-/// Reading of structures.
+/// How structures are read.
 macro_rules! readable {
     ($($(#[$about:meta])* $name:ident = $form:ident $($by:ident)? $word:literal, $said:literal {
         $($(#[$doc:meta])* $field:ident: $type:ty = $key:tt $(as $expected:expr)?,)+

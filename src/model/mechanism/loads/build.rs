@@ -78,7 +78,7 @@ impl Mechanism {
         Vec::new()
     }
 
-    /// The loads of the mechanism.
+    /// What acts in the mechanism.
     pub fn loads(&self) -> &Loads {
         &self.loads
     }

@@ -23,7 +23,7 @@ pub enum Carrier {
     Closure(usize),
 }
 
-/// A source of power.
+/// What gives power to a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worker {
     /// All drives.
@@ -94,7 +94,7 @@ words! {
         Dy = "dy",
         /// Its z.
         Dz = "dz",
-        /// Advance of the body along the axis, in m/rad.
+        /// How far the body advances along the axis, in m/rad.
         Pitch = "pitch",
     }
 }

@@ -198,7 +198,7 @@ impl Judge<'_> {
         Some(all)
     }
 
-    /// The values of each figure in positions.
+    /// What each figure sees in positions.
     pub(super) fn at_positions(
         &self,
         mechanism: &Arc<Mechanism>,
