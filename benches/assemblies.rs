@@ -1,7 +1,7 @@
 //! All assemblies: the first search, and new inputs from stored generic solutions.
 //!
-//! Run with RAYON_NUM_THREADS=1 for the time of one core. The lines beside the times give solutions, steps and
-//! evaluations for each path, and how many of a hundred new inputs were answered without a lost path.
+//! Run with RAYON_NUM_THREADS=1 for the time of one core. The lines beside the times give solutions, steps for each path, and
+//! how many of a hundred new inputs were answered without a lost path.
 
 // a bench prints its ratios
 #![allow(clippy::print_stdout)]
@@ -136,20 +136,18 @@ fn stored(criterion: &mut Criterion) {
         let reports = inputs
             .iter()
             .map(|at| solver.at(at, Wanted::default(), &Watch::none()));
-        let (mut complete, mut paths, mut steps, mut evaluations, mut retried) = (0, 0, 0, 0, 0);
+        let (mut complete, mut paths, mut steps, mut retried) = (0, 0, 0, 0);
         for report in reports {
             complete += usize::from(report.lost == 0);
             paths += report.generic;
             steps += report.steps;
-            evaluations += report.evaluations;
             retried += report.retried;
         }
         println!(
-            "{name}: {} solutions, {:.1} steps and {:.1} evaluations a path, {retried} of {paths} paths followed \
+            "{name}: {} solutions, {:.1} steps a path, {retried} of {paths} paths followed \
              again, {complete} of {} inputs complete",
             solver.generic().count(),
             steps as f64 / paths as f64,
-            evaluations as f64 / paths as f64,
             inputs.len()
         );
         for (what, certificates) in [("certified", true), ("not certified", false)] {

@@ -332,7 +332,7 @@ fn counts(question: &Question, count: usize, seeds: impl Iterator<Item = u64>) {
             "{}, seed {seed}",
             question.mechanism().name()
         );
-        assert!(!generic.exhausted && generic.quiet_loops > 0);
+        assert!(!generic.search.exhausted && generic.search.quiet_loops > 0);
     }
 }
 

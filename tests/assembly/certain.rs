@@ -61,9 +61,9 @@ fn solutions_that_rounding_blurs_far_out_are_no_others() {
     let report = asked(&Question::new(mechanism));
     assert_eq!((report.real, report.complex, report.bound), (1, 1, None));
     assert!(
-        report.multiple == 0 && report.is_yes(),
+        report.search.multiple == 0 && report.is_yes(),
         "{} multiple",
-        report.multiple
+        report.search.multiple
     );
 }
 
@@ -81,7 +81,10 @@ fn a_solution_that_is_multiple_for_all_inputs_comes_with_its_multiplicity() {
     )"#;
     let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
     let report = asked(&Question::new(mechanism));
-    assert_eq!((report.real, report.complex, report.multiple), (1, 2, 0));
+    assert_eq!(
+        (report.real, report.complex, report.search.multiple),
+        (1, 2, 0)
+    );
     assert_eq!(report.assemblies[0].multiplicity, 2);
     assert!(report.bound == Some(2) && !report.may_lack_some());
     // a rod that is longer than that has two

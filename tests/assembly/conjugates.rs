@@ -92,7 +92,7 @@ fn partners_that_the_search_missed_are_added_and_told() {
             assert_paired(&report);
             // where the seeds alone reach the known bound nothing is left to search for
             let all = report.bound == Some(report.generic);
-            assert_eq!(report.exhausted, !all, "{name}, seed {seed}");
+            assert_eq!(report.search.exhausted, !all, "{name}, seed {seed}");
             assert!(all || report.may_lack_some(), "{name}");
             missed += report.conjugates;
             let completeness = linkwork::output::assemblies::completeness(&report);

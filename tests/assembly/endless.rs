@@ -46,7 +46,7 @@ fn a_gear_whose_ratio_is_no_fraction_has_no_finite_number_of_assemblies() {
     let report = geared("sqrt(2)").assemblies(Wanted::default(), &Watch::none());
     let report = report.unwrap();
     assert_eq!(report.fit, Fit::Endless);
-    assert!(report.seeds < 2500, "{} seeds", report.seeds);
+    assert!(report.search.seeds < 2500, "{} seeds", report.search.seeds);
     assert!(report.real > 0);
 }
 
@@ -166,7 +166,7 @@ fn where_nearly_every_seed_gives_a_new_solution_the_family_has_a_dimension() {
         let settings = AssembliesSettings::default();
         let solver = AssemblySolver::new(mechanism, &held, &settings, &Watch::none()).unwrap();
         let report = solver.at(&mechanism.home(), Wanted::default(), &Watch::none());
-        (report.fit, report.generic, report.seeds)
+        (report.fit, report.generic, report.search.seeds)
     };
     let (fit, generic, seeds) = found(&on_its_axis(0.0));
     assert_eq!((fit, generic), (Fit::FreedomLeft(1), 0));
@@ -209,18 +209,21 @@ fn a_search_whose_every_loop_loses_a_few_of_hundreds_of_paths_ends_and_says_so()
             .unwrap()
     };
     let report = load("tests/data/h4_eight_rods");
-    assert_eq!((report.fit.clone(), report.exhausted), (Fit::Finite, false));
+    assert_eq!(
+        (report.fit.clone(), report.search.exhausted),
+        (Fit::Finite, false)
+    );
     assert!(
-        report.generic > 800 && report.loops < 60,
+        report.generic > 800 && report.search.loops < 60,
         "{}",
-        report.loops
+        report.search.loops
     );
     assert_eq!(report.real, 62);
-    assert!(report.lost_in_loops > 0 && report.may_lack_some());
+    assert!(report.search.lost_in_loops > 0 && report.may_lack_some());
     let said = completeness(&report);
     assert!(said.contains("each with") && said.contains("lost paths at most"));
     // of few paths none may be lost
     let report = load("mechanisms/stewart_gough_6sps");
-    assert!(report.lost_in_loops == 0 && !report.may_lack_some());
+    assert!(report.search.lost_in_loops == 0 && !report.may_lack_some());
     assert!(completeness(&report).contains("without a lost path"));
 }

@@ -196,7 +196,7 @@ fn tilted_loops_have_the_assemblies_and_multiplicities_of_level_ones() {
             .unwrap();
         let all = report.assemblies.iter();
         let multiplicities: Vec<usize> = all.map(|of| of.multiplicity).collect();
-        let how = (report.fit, report.bound, report.general);
+        let how = (report.fit, report.bound, report.search.general);
         (report.real, report.complex, multiplicities, how)
     };
     let poses = [

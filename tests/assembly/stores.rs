@@ -81,7 +81,7 @@ fn whatever_was_changed_is_refused() {
         ("all of it", String::new(), StoredError::SomethingElse),
         (
             "the version",
-            text.replacen("version 5", "version 4", 1),
+            text.replacen("version 6", "version 4", 1),
             StoredError::OtherVersion,
         ),
     ] {
@@ -104,7 +104,7 @@ fn numbers_that_do_not_assemble_the_mechanism_are_refused() {
     let at = first + body[first..].find(|c: char| c.is_ascii_digit()).unwrap();
     let wrong = format!("{}9{}", &body[..at], &body[at..]);
     let title = format!(
-        "linkwork generic solutions, version 5: 2 solutions, checksum {:08x}",
+        "linkwork generic solutions, version 6: 2 solutions, checksum {:08x}",
         crc32fast::hash(wrong.as_bytes())
     );
     let wrong = GenericSolutions::from_text(&format!("{title}\n{wrong}")).unwrap();

@@ -13,7 +13,7 @@ const program = process.env.LINKWORK;
 /** Of numbers, over the larger of them and one. */
 const TOLERANCE = 1e-12;
 /** What tells how an answer was found: last digits decide it. */
-const WORK = new Set(["steps", "evaluations", "retried", "paths", "seeds", "quiet_seeds", "loops", "quiet_loops", "complete"]);
+const WORK = new Set(["steps", "retried", "paths", "seeds", "quiet_seeds", "loops", "quiet_loops", "complete"]);
 
 /** Rounding that a condition number magnifies: where it is some thousands, the last of twelve digits are lost. */
 const ROUNDING = 16 * Number.EPSILON;

@@ -20,15 +20,15 @@ mod track;
 pub use follow::{Fold, Followed, LostMode, LostReason};
 pub use proof::prove;
 pub use report::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint,
-    Named, Part, PoseReport, Proof, Range, Unfit,
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, GenericSearch,
+    ListedJoint, Named, Part, PoseReport, Proof, Range, Unfit,
 };
 pub use search::{GenericSolutions, StoredError};
 
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
 use crate::solve::{Pruning, Watch};
-use crate::system::{Held, HeldPlatform, Neighbourhood, Still, System, sets_of_angles};
+use crate::system::{Held, Neighbourhood, Still, System, sets_of_angles};
 use answer::{Question, grouped};
 use family::{C, Family, KnownBound, Member};
 use search::question;
@@ -152,10 +152,10 @@ impl AssemblySolver {
         };
         let mut found = searched(Family::new(mechanism, held));
         if let Some((.., generic)) = &found
-            && generic.multiple > 0
+            && generic.search.multiple > 0
             && generic.freedom == 0
             && let Some(wider) = Family::wider(mechanism, held).and_then(searched)
-            && wider.2.multiple == 0
+            && wider.2.search.multiple == 0
         {
             found = Some(wider);
         }
@@ -263,7 +263,7 @@ impl AssemblySolver {
             // nothing was found yet, and nothing can be said
             (true, 0) if self.interrupted => Fit::Finite,
             (true, 0) if self.generic.endless => Fit::Endless,
-            (true, 0) if self.generic.multiple > 0 => Fit::AlwaysMultiple,
+            (true, 0) if self.generic.search.multiple > 0 => Fit::AlwaysMultiple,
             (true, 0) => Fit::TooManyHeld,
             (_, freedom) => Fit::FreedomLeft(freedom),
         };
@@ -332,52 +332,6 @@ impl AssemblySolver {
             inputs: inputs.into_iter().map(C::from_f64).collect(),
         }
     }
-
-    /// Follows mode `mode` of the home configuration to the inputs of `asked`.
-    ///
-    /// # Errors
-    /// If the home inputs have no such mode, or rounding hides where it went.
-    pub fn follow(
-        &self,
-        mode: usize,
-        asked: &Configuration<f64>,
-        held: &Held<f64>,
-        watch: &Watch,
-    ) -> Result<Followed, AssembliesError> {
-        let home = self.mechanism.home();
-        let held_home = held_at_home(&self.mechanism, held);
-        let modes = self.at_targets(
-            &home,
-            &held_home,
-            Wanted {
-                certificates: false,
-                ..Wanted::default()
-            },
-            watch,
-        );
-        if modes.interrupted {
-            return Err(AssembliesError::Interrupted);
-        }
-        let found = modes.assemblies.iter().find(|a| a.mode == mode);
-        let assembly = found.ok_or(AssembliesError::NoSuchMode(modes.real))?;
-        let start = assembly.configuration();
-        let coordinates = &self.family.coordinates;
-        let stays = coordinates.inputs_of(&home, &held_home) == coordinates.inputs_of(asked, held);
-        if stays {
-            return Ok(Ok(start));
-        }
-        if assembly.multiplicity != 1 {
-            let multiplicity = assembly.multiplicity;
-            return Ok(Err(LostReason::MeetAtHome { multiplicity }));
-        }
-        follow::follow(
-            &self.mechanism,
-            &self.family,
-            (&start, &held_home),
-            (asked, held),
-            watch,
-        )
-    }
 }
 
 /// The fewest freedoms left at assembled configurations beside home.
@@ -386,18 +340,4 @@ fn freedoms_beside_home(mechanism: &Mechanism, held: &Held<f64>) -> Option<usize
     let beside = (1..4).filter_map(|k| near.beside(&mechanism.home(), k));
     let freedoms = beside.map(|tangent| tangent.motions.len() + tangent.idle.len());
     freedoms.min()
-}
-
-/// The held coordinates at their values at home.
-fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
-    let home = mechanism.home();
-    let mut held = held.clone();
-    for (held, pose) in held.platforms.iter_mut().zip(&home.platforms) {
-        if let HeldPlatform::Partly(parts) = held {
-            let pose = mechanism.in_ground(pose);
-            (parts.coordinates.iter_mut()).for_each(|(c, value)| *value = c.of(&pose));
-            parts.orientation = parts.orientation.map(|_| pose.rotation);
-        }
-    }
-    held
 }

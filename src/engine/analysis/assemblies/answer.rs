@@ -10,13 +10,11 @@ mod real;
 pub(super) use describe::grouped;
 pub(super) use real::real_solution;
 
-use std::ops::Range;
-
 use super::Wanted;
 use super::family::{C, Coordinates, KnownBound, size};
 use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
 use super::search::GenericSolutions;
-use super::track::{End, Ends, Local, ParameterHomotopy, are_one};
+use super::track::{END, End, Ends, Local, ParameterHomotopy, are_one};
 use crate::algebra::SiUnit;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
@@ -26,11 +24,8 @@ use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System, Work};
 use real::{complex_key, key, order, tidied, tidied_complex};
 
-/// The end of the homotopy, where the target inputs are.
-pub(super) const END: C = C::new(1.0, 0.0);
-
-/// Points that Newton's method reached from starts with these numbers.
-pub(super) type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + 'a;
+/// Points that Newton's method reached from so many starts.
+pub(super) type Starts<'a> = dyn Fn(usize) -> Vec<Configuration<f64>> + 'a;
 
 /// The question in real numbers.
 pub(super) struct Question<'a> {
@@ -96,7 +91,7 @@ pub(super) struct Gathered {
 
 impl Question<'_> {
     /// The report for the ends of all paths, and for points that Newton's method reached from
-    /// starts with the given numbers. `homotopy` stays at the target inputs.
+    /// starts. `homotopy` stays at the target inputs.
     pub fn answer(
         &self,
         generic: &GenericSolutions,
@@ -174,7 +169,6 @@ impl Question<'_> {
         order(&mut found, |f| &f.key);
         found.sort_by_key(|f| (f.multiplicity == 0, std::cmp::Reverse(f.dimension)));
         order(&mut complex, |solution| &solution.0);
-        let infinite = |e: &&End| **e == End::Infinite;
         report.half_a_turn_away = half_a_turn_away.len();
         let isolated = groups.iter().filter(|g| g.dimension == 0);
         report.complex = match fit {
@@ -190,17 +184,18 @@ impl Question<'_> {
             _ => 0,
         };
         report.fit = fit;
-        report.at_infinity = ends.ends.iter().filter(infinite).count();
-        // what was added is where paths led that were lost
-        let lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
+        let count = |one: End| ends.ends.iter().filter(|end| **end == one).count();
+        let (lost, gone) = (count(End::Lost), count(End::Gone));
+        // what was added is where paths led that were lost, or far out on every way
+        let beyond = conjugates.saturating_sub(lost);
         report.lost = lost.saturating_sub(conjugates);
-        report.conjugates = conjugates.saturating_sub(lost);
+        report.at_infinity = count(End::Infinite) + gone.saturating_sub(beyond);
+        report.conjugates = beyond.saturating_sub(gone);
         report.singular =
             isolated.filter(|g| g.paths > 1).count() + gathered.merged + gathered.multiple;
         report.retried = ends.retries;
         report.paths = ends.paths;
         report.steps = ends.steps;
-        report.evaluations = ends.evaluations;
         report.complex_assemblies = complex.into_iter().map(|(_, solution)| solution).collect();
         self.describe(&mut report, found, wanted.certificates, &mut work);
         if let (true, Some((near, _))) = (report.assemblies.is_empty(), &nearest) {
@@ -297,21 +292,11 @@ impl Question<'_> {
                 .map(|(platform, _)| platform.name.clone())
                 .collect(),
             characteristic_length: self.mechanism.characteristic_length(),
-            multiple: generic.multiple,
             generic: generic.count(),
             bound: self.bound.map(|b| b.count),
             bound_source: self.bound.map(|b| format!("{}: {}", b.structure, b.source)),
-            seeds: generic.seeds,
-            quiet_seeds: generic.quiet_seeds,
-            loops: generic.loops,
-            quiet_loops: generic.quiet_loops,
-            traced: generic.complete,
-            related: generic.related,
-            general: generic.general,
             flips: Some(self.flips).filter(|flips| *flips > 1),
-            lost_in_loops: generic.lost_in_loops,
-            exhausted: generic.exhausted,
-            seed: generic.seed,
+            search: generic.search.clone(),
             ..AssembliesReport::default()
         }
     }
@@ -327,7 +312,7 @@ impl Question<'_> {
             let (x, singular) = match end {
                 End::Regular(x) => (x, false),
                 End::Singular(x) => (x, true),
-                End::Either(_) | End::Infinite | End::Lost => continue,
+                _ => continue,
             };
             // simple solutions are distinct already; an end where solutions meet and that could not be
             // refined has half the digits

@@ -3,21 +3,20 @@
 
 mod bound;
 mod coordinates;
-mod isolated;
 mod legwise;
 mod rods;
 mod varied;
 
 pub(super) use bound::{KnownBound, known_bound};
 pub(super) use coordinates::{C, Coordinates, Input, size};
-pub(super) use legwise::{LegwiseSolutions, count, learn};
+pub(super) use legwise::{LegwiseSolutions, count, learn, points, spanning_points};
 pub(super) use rods::Rod;
 
 use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
+use crate::mechanism::{ClosureKind, Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
 use crate::system::{Held, HeldPlatform, RegularFreedoms, System};
 use varied::Varied;
@@ -57,8 +56,10 @@ pub(crate) struct Family {
     kept: Vec<Kept>,
     /// Parts that rods stand for; what is in them is not among the unknowns.
     pub rods: Vec<Rod>,
-    /// A closure that is left out.
-    cut: Option<usize>,
+    /// Closures that are left out, one after the other.
+    cut: Vec<usize>,
+    /// For each closure that is left, false if one of its rows is left out.
+    whole: Vec<bool>,
     /// The family with rods in place of parts that are no more, if there are any.
     pub reduced: Option<Box<Family>>,
 }
@@ -105,7 +106,8 @@ impl Family {
             own: None,
             kept: mechanism.rows_that_vary().to_vec(),
             rods: Vec::new(),
-            cut: None,
+            cut: Vec::new(),
+            whole: vec![true; mechanism.closures().len()],
             reduced: None,
         };
         let system = System::new(mechanism.dimensions(), held);
@@ -140,27 +142,62 @@ impl Family {
             rods,
             ..self.clone()
         };
+        family.whole = vec![true; family.kept.len()];
         family.own = family.system(&self.parameters);
         let system = family.own.as_ref().filter(|_| !family.rods.is_empty())?;
         family.coordinates = self.coordinates.without(&family.held, system);
         Some(family)
     }
 
-    /// The family without a closure of one row and with a joint held, which is given last among the inputs.
-    pub fn without(&self, closure: usize, joint: usize) -> Option<Self> {
+    /// The family without a row of a closure and with a joint held, which is given last among the inputs. A closure of
+    /// which no row is left goes.
+    pub fn without(&self, (closure, row): (usize, usize), joint: usize) -> Option<Self> {
         let mut family = Family {
-            cut: Some(closure),
             varying_equations: self.varying_equations - 1,
             own: None,
             reduced: None,
             ..self.clone()
         };
         family.held.joints[joint] = true;
-        family.kept.remove(closure);
+        family.kept[closure][row] = false;
+        family.whole[closure] = false;
+        if self.own.as_ref()?.closure_rows().nth(closure)?.len() == 1 {
+            family.cut.push(closure);
+            family.kept.remove(closure);
+            family.whole.remove(closure);
+        }
         family.own = family.system(&self.parameters);
         family.coordinates = self.coordinates.without(&family.held, family.own.as_ref()?);
         family.coordinates.inputs.push(Input::Joint(joint));
         Some(family)
+    }
+
+    /// Rows that may be left out, each as a row of a closure and of all, those of the shortest closures first: of rods of
+    /// fixed length, and if they are asked for of pins and balls where they join points.
+    pub fn rows(&self, of_points: bool) -> Vec<((usize, usize), usize)> {
+        let dimensions = self.dimensions(&self.parameters);
+        let (Some(dimensions), Some(system)) = (dimensions, &self.own) else {
+            return Vec::new();
+        };
+        let closures = dimensions.closures.iter().zip(system.closure_rows());
+        let mut closures: Vec<_> = closures.enumerate().collect();
+        closures.sort_by_key(|(_, (_, rows))| rows.len());
+        let rows = closures.into_iter().flat_map(|(closure, (of, rows))| {
+            let joins = matches!(of.kind, ClosureKind::Revolute | ClosureKind::Spherical);
+            let most = match of.kind.has_length() {
+                true => usize::from(of.extension.0.is_empty()),
+                false => 3 * usize::from(joins && of_points),
+            };
+            let kept = (0..of.kind.equations()).filter(move |row| self.kept[closure][*row]);
+            let own = kept.zip(rows).filter(move |(row, _)| *row < most);
+            own.map(move |(row, of_all)| ((closure, row), of_all))
+        });
+        rows.collect()
+    }
+
+    /// True if no single row of a closure is left out.
+    pub fn is_whole(&self) -> bool {
+        !self.whole.contains(&false)
     }
 
     /// The equations of members with these parameters. `None` if an expression has no value.
@@ -351,8 +388,8 @@ impl Family {
         if !self.rods.is_empty() {
             dimensions = Rod::standing(&self.rods, &dimensions)?;
         }
-        if let Some(closure) = self.cut {
-            dimensions.closures.remove(closure);
+        for closure in &self.cut {
+            dimensions.closures.remove(*closure);
         }
         Some(dimensions)
     }

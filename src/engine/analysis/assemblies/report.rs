@@ -152,6 +152,48 @@ pub struct ListedJoint {
     pub winding: bool,
 }
 
+/// The search for the solutions of a generic member.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct GenericSearch {
+    /// The random seed.
+    pub seed: u64,
+    /// Newton seeds tried at the generic member.
+    pub seeds: usize,
+    /// Seeds since the last discovery.
+    pub quiet_seeds: usize,
+    /// Seeds that met a solution which is multiple for all inputs. No path follows such a solution;
+    /// they are sought from many starts.
+    pub multiple: usize,
+    /// Independent monodromy loops through generic members, each followed by every solution known.
+    pub loops: usize,
+    /// Those on which no path was lost, or of 200 and more along each edge at most a quarter: they lead from what was found
+    /// to nothing else.
+    pub quiet_loops: usize,
+    /// The most paths lost along one of their edges. If it is not 0, a solution whose path each of them lost may be missing.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub lost_in_loops: usize,
+    /// True if the trace test (Leykin, Rodriguez and Sottile 2018, in double precision) holds for the length of one rod
+    /// with all points of its cut: no isolated solution is missing but such of which the joint that makes the cut does
+    /// not turn with that length. It is run where no known bound is reached.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub traced: bool,
+    /// True if the trace test failed at each member that was searched: solutions are missing, or points of the cut.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub refuted: bool,
+    /// True if the search varied dimensions with the relations between them that parameters and expressions of the file
+    /// make: with other numbers of equations than of unknowns the mechanism may need them. Otherwise each is a number of its
+    /// own.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub related: bool,
+    /// For a platform on six rods: how many of the 40 poses of a general one, whose paths lead to all of its isolated poses, go
+    /// to infinity for generic inputs. Then nothing is searched.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub general: Option<usize>,
+    /// True if the search ended at its limits and not because nothing more was found.
+    pub exhausted: bool,
+}
+
 /// All assemblies for the target inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -198,9 +240,6 @@ pub struct AssembliesReport {
     /// Isolated real assemblies that were found from other starts and to which no path led.
     /// Anything but 0 means that the list may be incomplete.
     pub unexpected: usize,
-    /// Seeds that met a solution which is multiple for all inputs. No path follows such a solution;
-    /// they are sought from many starts.
-    pub multiple: usize,
     /// Paths whose end could not be decided. Anything but 0 means that the list may be incomplete.
     pub lost: usize,
     /// Complex solutions to which no path led, but one to their conjugates, which for real inputs are
@@ -215,49 +254,20 @@ pub struct AssembliesReport {
     pub paths: usize,
     /// Steps along all paths, the last time each was followed.
     pub steps: usize,
-    /// Jacobians evaluated for them.
-    pub evaluations: usize,
     /// Isolated complex solutions of the generic member.
     pub generic: usize,
     /// The largest number of isolated complex solutions that the structure is known to have.
     pub bound: Option<usize>,
     /// The structure with the source of the bound.
     pub bound_source: Option<String>,
-    /// True if the trace test (Leykin, Rodriguez and Sottile 2018, in double precision) holds for the length of one rod
-    /// with all points of its cut: no isolated solution is missing but such of which the joint that makes the cut does
-    /// not turn with that length. It is run where no known bound is reached.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub traced: bool,
-    /// True if the search varied dimensions with the relations between them that parameters and expressions of the file
-    /// make: with other numbers of equations than of unknowns the mechanism may need them. Otherwise each is a number of its
-    /// own.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub related: bool,
-    /// For a platform on six rods: how many of the 40 poses of a general one, whose paths lead to all of its isolated poses, go
-    /// to infinity for generic inputs. Then nothing is searched.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub general: Option<usize>,
     /// Number of ways in which universal joints stand in each pose, where their legs were left out of the search.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flips: Option<usize>,
     /// Number of held inputs compared with the freedoms of the mechanism.
     pub fit: Fit,
-    /// Newton seeds tried at the generic member.
-    pub seeds: usize,
-    /// Seeds since the last discovery.
-    pub quiet_seeds: usize,
-    /// Independent monodromy loops through generic members.
-    pub loops: usize,
-    /// Those on which no path was lost, or of 200 and more along each edge at most a quarter: they lead from what was found
-    /// to nothing else.
-    pub quiet_loops: usize,
-    /// The most paths lost along one of their edges. If it is not 0, a solution whose path each of them lost may be missing.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub lost_in_loops: usize,
-    /// True if the search ended at its limits and not because nothing more was found.
-    pub exhausted: bool,
-    /// The random seed.
-    pub seed: u64,
+    /// The search for the solutions of the generic member.
+    #[serde(flatten)]
+    pub search: GenericSearch,
     /// Number of the closure rows that certificates and determinants use, and of all; `None` if all are used.
     pub independent_rows: Option<(usize, usize)>,
     /// Closest approach to assembly, if there is no real assembly.
@@ -371,7 +381,8 @@ impl AssembliesReport {
             _ => {}
         }
         // with a freedom left, multiple solutions are where the sets of solutions cross
-        let incomplete = self.multiple > 0 || self.lost_in_loops > 0 || self.exhausted;
+        let unsure = self.search.multiple > 0 || self.search.lost_in_loops > 0;
+        let incomplete = unsure || self.search.exhausted || self.search.refuted;
         let doubted = self.fit == Fit::Finite && incomplete;
         let missed = self.lost + self.unexpected + self.conjugates > 0;
         let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
@@ -379,6 +390,6 @@ impl AssembliesReport {
     }
 }
 
-pub(super) fn is_zero(count: &usize) -> bool {
+fn is_zero(count: &usize) -> bool {
     *count == 0
 }

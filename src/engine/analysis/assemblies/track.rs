@@ -12,7 +12,7 @@ mod target;
 
 pub(super) use along::{polish, tracked};
 pub(super) use fold::located;
-pub(super) use homotopy::ParameterHomotopy;
+pub(super) use homotopy::{END, ParameterHomotopy, START};
 pub(super) use lift::Lift;
 pub(super) use local::Local;
 pub(super) use path::End;

@@ -69,20 +69,6 @@ impl<T: Factorable> System<T> {
         rods.collect()
     }
 
-    /// Each rod of fixed length: its closure, its row, its length.
-    pub(crate) fn fixed_rods(&self) -> impl Iterator<Item = (usize, usize, T)> {
-        let closures = self.plans.iter().zip(&self.closures).enumerate();
-        let rods = closures.filter(|(_, (_, c))| c.kind.has_length() && c.extension.0.is_empty());
-        rods.map(|(i, (plan, closure))| (i, plan.row, closure.length))
-    }
-
-    /// The equations with another length of a rod.
-    pub(crate) fn with_length(&self, closure: usize, length: T) -> Self {
-        let mut other = self.clone();
-        other.closures[closure].length = length;
-        other
-    }
-
     /// The wrenches of every closure's rows, at the placement last evaluated.
     pub fn closure_wrenches(
         &self,

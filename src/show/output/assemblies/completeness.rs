@@ -23,8 +23,8 @@ fn searched(report: &AssembliesReport) -> String {
         return format!(
             "interrupted with {} found after {} and {}: assemblies may be missing",
             count(report.generic, "generic solution"),
-            count(report.seeds, "seed"),
-            count(report.loops, "loop"),
+            count(report.search.seeds, "seed"),
+            count(report.search.loops, "loop"),
         );
     }
     match report.fit {
@@ -64,13 +64,13 @@ fn searched(report: &AssembliesReport) -> String {
                 .into();
         }
     }
-    let loops = count(report.quiet_loops, "loop");
-    let mut quiet = match report.lost_in_loops {
+    let loops = count(report.search.quiet_loops, "loop");
+    let mut quiet = match report.search.lost_in_loops {
         0 => format!("{loops} without a lost path"),
         n => format!("{loops}, each with {} at most,", count(n, "lost path")),
     };
-    let seeds = count(report.quiet_seeds, "seed");
-    quiet = match (report.loops, report.quiet_seeds) {
+    let seeds = count(report.search.quiet_seeds, "seed");
+    quiet = match (report.search.loops, report.search.quiet_seeds) {
         (0, _) => format!(
             "no number of this mechanism can be varied to lead from one solution to another; {seeds}"
         ),
@@ -93,7 +93,7 @@ fn searched(report: &AssembliesReport) -> String {
             count(report.generic / flips, "pose")
         ),
     };
-    let mut parts = match report.general {
+    let mut parts = match report.search.general {
         Some(infinite) => vec![
             found,
             format!(
@@ -104,7 +104,7 @@ fn searched(report: &AssembliesReport) -> String {
                 }
             ),
         ],
-        None if report.traced => vec![
+        None if report.search.traced => vec![
             found,
             "the trace test holds for the length of one rod with all points of its cut: no solution that this length \
              moves is missing"
@@ -113,10 +113,17 @@ fn searched(report: &AssembliesReport) -> String {
         None if report.bound == Some(report.generic) => vec![found, bound],
         None => vec![found, format!("{quiet} found no more"), bound],
     };
-    if report.lost_in_loops > 0 {
+    if report.search.lost_in_loops > 0 {
         parts.push("solutions whose paths every loop lost may be missing".into());
     }
-    if report.exhausted {
+    if report.search.refuted {
+        parts.push(
+            "a trace test over the length of one rod failed at every member that was searched: solutions, or points of its cut, \
+             are missing"
+                .into(),
+        );
+    }
+    if report.search.exhausted {
         parts.push("the search ended at its limits and there may be more".into());
     }
     if let Some(largest) = report.continua.first() {
@@ -126,7 +133,7 @@ fn searched(report: &AssembliesReport) -> String {
             largest.dimension
         ));
     }
-    if report.multiple > 0 {
+    if report.search.multiple > 0 {
         parts.push(
             "some solutions are multiple for all inputs: these were sought from many starts only, and \
              some of them may be missing"
@@ -195,11 +202,11 @@ pub(super) fn accounting(report: &AssembliesReport) -> Vec<String> {
     }
     lines.push(format!(
         "{} and {}, random seed {}",
-        count(report.seeds, "Newton seed"),
-        count(report.loops, "monodromy loop"),
-        report.seed
+        count(report.search.seeds, "Newton seed"),
+        count(report.search.loops, "monodromy loop"),
+        report.search.seed
     ));
-    if report.related {
+    if report.search.related {
         lines.push(
             "the search varied dimensions with their relations kept as parameters and expressions give them: the mechanism may \
              need them to close"

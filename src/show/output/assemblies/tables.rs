@@ -22,7 +22,7 @@ pub(super) fn times(multiplicity: usize) -> String {
 pub(super) fn met(report: &AssembliesReport, multiplicity: usize) -> String {
     match report.fit {
         Fit::FreedomLeft(_) => "singular".into(),
-        Fit::Finite if report.multiple == 0 => times(multiplicity),
+        Fit::Finite if report.search.multiple == 0 => times(multiplicity),
         _ => format!("at least {}", times(multiplicity)),
     }
 }

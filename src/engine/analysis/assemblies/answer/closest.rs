@@ -18,16 +18,9 @@ impl Question<'_> {
     ) -> Option<(Configuration<f64>, bool)> {
         let newton = Newton::default();
         let mut best: Option<(f64, bool, Configuration<f64>)> = None;
-        let lifted = starts.iter().map(|x| {
-            let mut point = self.coordinates.placed(x, self.asked).map(|z| z.re);
-            for pose in &mut point.platforms {
-                let q = pose.orientation.normalised();
-                if q.0.iter().all(|x| x.is_finite()) {
-                    pose.orientation = q;
-                }
-            }
-            point
-        });
+        let lifted = starts
+            .iter()
+            .map(|x| self.coordinates.real_part(x, self.asked));
         for mut point in std::iter::once(self.asked.clone()).chain(lifted) {
             let report = solve(&newton, &self.system, &mut point, work);
             // ties are settled by the order of starts; a clearly smaller gap wins

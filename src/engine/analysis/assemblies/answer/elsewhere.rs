@@ -4,13 +4,12 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::super::Wanted;
-use super::{END, Found, Gathered, Question, Starts};
+use super::{Found, Gathered, Question, Starts};
 use crate::analysis::assemblies::family::{C, size};
 use crate::analysis::assemblies::report::Fit;
 use crate::analysis::assemblies::search::GenericSolutions;
-use crate::analysis::assemblies::track::{Local, ParameterHomotopy};
+use crate::analysis::assemblies::track::{END, Local, ParameterHomotopy};
 use crate::mechanism::Configuration;
-use crate::number::Number;
 use crate::number::tolerance::CANCELLED;
 use crate::solve::{Homotopy, Newton};
 use crate::system::{Cone, Neighbourhood, independent_parts};
@@ -41,15 +40,14 @@ impl Question<'_> {
         homotopy: &mut ParameterHomotopy<'_>,
         starts: &Starts<'_>,
     ) {
-        let many = matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.multiple > 0;
-        let many = many && *fit != Fit::Endless;
-        let first = if many { MANY_STARTS } else { STARTS };
-        let samples = matches!(fit, Fit::FreedomLeft(_) | Fit::Endless);
-        if !(many || wanted.starts || samples) {
-            return;
-        }
+        let multiple =
+            matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.search.multiple > 0;
+        let many = multiple && *fit != Fit::Endless;
         let expected = many || *fit != Fit::Finite;
-        self.add(gathered, starts(0..first), homotopy, (fit, expected));
+        if expected || wanted.starts {
+            let count = if many { MANY_STARTS } else { STARTS };
+            self.add(gathered, starts(count), homotopy, (fit, expected));
+        }
     }
 
     /// A real solution beside a complex point.
@@ -58,12 +56,10 @@ impl Question<'_> {
         x: &[C],
         homotopy: &mut ParameterHomotopy<'_>,
     ) -> Option<Configuration<f64>> {
-        let mut start: Vec<C> = x.iter().map(|z| C::from_f64(z.re)).collect();
-        self.coordinates.settle(&mut start);
-        if start.iter().any(|z| !z.re.is_finite()) {
-            return None;
-        }
-        let x = Local::new(homotopy, true).settled(start)?;
+        let start = self.coordinates.real_part(x, self.asked);
+        let start = self.coordinates.flat(&start);
+        let is_finite = start.iter().all(|z| z.re.is_finite());
+        let x = Local::new(homotopy, true).settled(is_finite.then_some(start)?)?;
         Some(self.coordinates.placed(&x, self.asked).map(|z| z.re))
     }
 

@@ -31,10 +31,7 @@ pub(crate) fn real_solution(
     if imaginary > 1e-5 * scale {
         return None;
     }
-    let mut point = coordinates.placed(x, asked).map(|z| z.re);
-    for &p in &coordinates.free_platforms {
-        point.platforms[p].orientation = point.platforms[p].orientation.normalised();
-    }
+    let mut point = coordinates.real_part(x, asked);
     // far away rounding leaves more
     let left = ROUNDING * scale / steepness(&point, coordinates);
     let newton = Newton {

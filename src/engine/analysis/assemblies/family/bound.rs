@@ -25,6 +25,7 @@ pub(crate) struct KnownBound {
 /// The known bound for a question, if its structure is recognised.
 pub(crate) fn known_bound(mechanism: &Mechanism, family: &Family) -> Option<KnownBound> {
     let known = |family: &Family| {
+        let family = Some(family).filter(|family| family.is_whole())?;
         let structure = Structure::of(mechanism, family)?;
         match structure.platforms.as_slice() {
             [] => (structure.dyads())

@@ -157,6 +157,18 @@ impl Coordinates {
         at
     }
 
+    /// The real configuration at the real parts of unknowns; held coordinates are as in `like`.
+    pub fn real_part(&self, x: &[C], like: &Configuration<f64>) -> Configuration<f64> {
+        let mut at = self.placed(x, like).map(|z| z.re);
+        for &p in &self.free_platforms {
+            let orientation = at.platforms[p].orientation.normalised();
+            if orientation.0.iter().all(|x| x.is_finite()) {
+                at.platforms[p].orientation = orientation;
+            }
+        }
+        at
+    }
+
     /// Writes the unknowns into a configuration; its held coordinates stay.
     #[inline]
     pub fn unflatten(&self, x: &[C], at: &mut Configuration<C>) {

@@ -111,6 +111,21 @@ pub(crate) fn learn(
     }
 }
 
+/// All solutions that legwise solutions stand for.
+pub(crate) fn points(legwise: &[LegwiseSolutions], coordinates: &Coordinates) -> Vec<Vec<C>> {
+    let all = legwise.iter().flat_map(|s| s.points(coordinates));
+    all.collect()
+}
+
+/// The points that show every way of every leg.
+pub(crate) fn spanning_points(
+    legwise: &[LegwiseSolutions],
+    coordinates: &Coordinates,
+) -> Vec<Vec<C>> {
+    let all = legwise.iter().flat_map(|s| s.spanning_points(coordinates));
+    all.collect()
+}
+
 /// Number of solutions that legwise solutions stand for.
 pub(crate) fn count(legwise: &[LegwiseSolutions]) -> usize {
     legwise.iter().map(LegwiseSolutions::count).sum()

@@ -3,7 +3,7 @@
 use super::super::AssembliesSettings;
 use super::monodromy::search_one;
 use super::solutions::GenericSolutions;
-use crate::analysis::assemblies::family::{C, Family, learn};
+use crate::analysis::assemblies::family::{Family, learn, points};
 use crate::analysis::assemblies::track::Lift;
 use crate::solve::Watch;
 
@@ -20,22 +20,18 @@ pub(crate) fn search(
         let found = search(reduced, question.clone(), bound, settings, watch)?;
         completed(family, found)
     });
-    parts.or_else(|| search_one(family, &question, bound, settings, watch, None))
+    parts.or_else(|| search_one(family, &question, bound, settings, watch))
 }
 
 /// Solutions found with rods, with what the rods stand for. `None` if that is not all that there is to find.
 fn completed(family: &Family, mut found: GenericSolutions) -> Option<GenericSolutions> {
-    let finite = found.freedom == 0 && found.multiple == 0 && !found.endless;
+    let finite = found.freedom == 0 && found.search.multiple == 0 && !found.endless;
     let reduced = family
         .reduced
         .as_ref()
         .filter(|_| finite && found.count() > 0)?;
     let lift = Lift::new(family, &found.member())?;
-    let points = found
-        .legwise
-        .iter()
-        .flat_map(|s| s.points(&reduced.coordinates));
-    let points: Vec<Vec<C>> = points.collect();
+    let points = points(&found.legwise, &reduced.coordinates);
     let parts = crate::solve::each(points.len(), &lift, |lift, k| lift.of(&points[k]));
     found.legwise.clear();
     for part in parts {

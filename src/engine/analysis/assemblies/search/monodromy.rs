@@ -9,20 +9,24 @@
 //! probability ½ at most (those that do are a proper subgroup); what is known at the end is kept by all closed ways on
 //! which no path was lost. Other components are reached by seeds only, as the two operation modes of a 3-RPS.
 
+mod begin;
 mod graph;
 mod seeds;
 
+pub(super) use begin::search_one;
+
+use std::cell::Cell;
+
+use begin::smaller;
 use graph::{GraphEdge, GraphNode};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
-use super::rod_trace::RodTrace;
-use super::six_rods;
+use super::rod_trace::{Random, Smaller, Traces};
 use super::solutions::GenericSolutions;
 use crate::analysis::assemblies::family::{C, Family, Member};
-use crate::analysis::assemblies::track::{stands_alone, tracked};
-use crate::number::Number;
+use crate::analysis::assemblies::track::{START, stands_alone, tracked};
 use crate::solve::{Progress, Stage, Watch};
 
 fn generator(seed: u64, stream: u64) -> Pcg64 {
@@ -42,98 +46,12 @@ struct MemberSearch<'a> {
     nodes: Vec<GraphNode<'a>>,
     edges: Vec<GraphEdge>,
     found: GenericSolutions,
-    /// The trace test over the length of a rod, and how often it was begun.
-    cut: Option<RodTrace<'a>>,
-    cuts: usize,
-    /// Number of solutions for which it was run last.
-    traced: usize,
-    /// True if it did not hold then.
-    refuted: bool,
+    traces: Traces<'a>,
+    /// Smaller problems that may still be searched for trace tests.
+    budget: &'a Cell<usize>,
     /// Number of solutions from which on it is doubted that they are finite in number.
     doubtful: usize,
 }
-
-/// Searches a given member, or a generic one. `None` if a dimension has no value.
-pub(super) fn search_one(
-    family: &Family,
-    question: &str,
-    bound: Option<usize>,
-    settings: &AssembliesSettings,
-    watch: &Watch,
-    base: Option<Member>,
-) -> Option<GenericSolutions> {
-    let generic = |stream| family.generic_member(&mut generator(settings.seed, stream));
-    let given = base.is_some();
-    let mut base = base.unwrap_or_else(|| generic(0));
-    let mut six = six_rods::solved(family, &base, given, watch);
-    for k in 1..BASES {
-        if !matches!(six, Some(None)) || given || watch.is_stopped() {
-            break;
-        }
-        base = generic(k << 44);
-        six = six_rods::solved(family, &base, k + 1 == BASES, watch);
-    }
-    let begun = |base| {
-        let mut search = MemberSearch {
-            watch,
-            bound,
-            family,
-            settings,
-            given,
-            nodes: Vec::new(),
-            edges: Vec::new(),
-            found: GenericSolutions {
-                question: question.to_owned(),
-                seed: settings.seed,
-                ..GenericSolutions::default()
-            },
-            cut: None,
-            cuts: 0,
-            traced: 0,
-            refuted: false,
-            doubtful: DOUBTFUL,
-        };
-        search.add(base, 1.0)?;
-        Some(search)
-    };
-    let mut search = begun(base)?;
-    if let Some((legwise, infinite)) = six.flatten() {
-        search.nodes[0].legwise = legwise;
-        search.found.general = Some(infinite);
-        return Some(search.result());
-    }
-    search.found.exhausted = search.run();
-    // some are missing, or points of the cut are: another member tells
-    if search.refuted
-        && !given
-        && !watch.is_stopped()
-        && let Some(mut other) = begun(generic(BASES << 44))
-    {
-        other.found.exhausted = other.run();
-        if other.found.complete || other.count() > search.count() {
-            search = other;
-        }
-    }
-    Some(search.result())
-}
-
-/// The search for the smaller problem of a trace test.
-fn smaller<'a>(
-    settings: &AssembliesSettings,
-    watch: &'a Watch<'a>,
-) -> impl Fn(&Family, Option<usize>, Member) -> Option<GenericSolutions> + 'a {
-    const FEW: usize = 32;
-    let few = AssembliesSettings {
-        quiet_seeds: FEW,
-        quiet_loops: 2,
-        most_loops: FEW,
-        ..settings.clone()
-    };
-    move |family, bound, member| search_one(family, "", bound, &few, watch, Some(member))
-}
-
-/// Members at which it is tried to reach the solutions of a platform on six rods.
-const BASES: u64 = 5;
 
 /// Seeds after which a search that found nothing gives up.
 const HOPELESS: usize = 600;
@@ -150,7 +68,7 @@ impl<'a> MemberSearch<'a> {
     /// Searches until nothing more is found; true if it ended at its limits, or was stopped, before.
     fn run(&mut self) -> bool {
         while self.nodes[0].shown.is_empty() {
-            let seeds = [self.found.seeds, self.found.quiet_seeds];
+            let seeds = [self.found.search.seeds, self.found.search.quiet_seeds];
             if seeds[0] >= HOPELESS || seeds[1] >= self.settings.quiet_seeds {
                 return false;
             }
@@ -167,61 +85,49 @@ impl<'a> MemberSearch<'a> {
                 return true;
             }
             // loops through a family of one member say nothing
-            let quiet = self.found.quiet_loops >= self.settings.quiet_loops.max(1);
+            let quiet = self.found.search.quiet_loops >= self.settings.quiet_loops.max(1);
+            // where the trace test failed, seeds are to find what it misses
+            let patience = 1 + 3 * usize::from(self.traces.fail_for(self.count()));
+            let quiet_seeds = patience * self.settings.quiet_seeds;
             match quiet || !self.family.varies() {
-                true if self.found.quiet_seeds >= self.settings.quiet_seeds => {
-                    if !self.close_legs() {
+                true if self.found.search.quiet_seeds >= quiet_seeds => {
+                    if self.close_legs() {
+                        self.spread();
+                    } else if !self.traces.doubt_the_cut(self.count()) {
                         return false;
                     }
-                    self.spread();
                 }
-                true if self.found.seeds >= self.settings.most_seeds => return true,
+                true if self.found.search.seeds >= self.settings.most_seeds => return true,
                 true => {
                     self.newton_seeds(0);
                     self.spread();
                 }
-                false if self.found.loops >= self.settings.most_loops || !self.grow() => {
+                false if self.found.search.loops >= self.settings.most_loops || !self.grow() => {
                     return true;
                 }
                 false => {}
             }
-            (self.found.quiet_loops, self.found.lost_in_loops) = self.quiet();
+            (
+                self.found.search.quiet_loops,
+                self.found.search.lost_in_loops,
+            ) = self.quiet();
         }
     }
 
     /// True if no more are possible.
     fn is_complete(&mut self) -> bool {
         let count = self.count();
-        if self.bound != Some(count) && self.traced != count {
-            (self.traced, self.refuted) = (count, false);
-            self.trace(count);
+        // where paths to the first node were lost a test would say nothing
+        if self.bound != Some(count) && self.nodes[0].count() == count {
+            let (settings, now) = (self.settings, (self.watch, self.in_loops()));
+            let random = |number: u64| generator(settings.seed, (1 << 45) + number);
+            let smaller = smaller(settings, self.watch, self.budget);
+            let how = (&smaller as &Smaller<'_>, &random as &Random<'_>);
+            let node = &self.nodes[0];
+            let known = (&node.member, &node.legwise[..]);
+            self.found.search.traced = self.traces.hold(self.family, known, how, now);
         }
-        self.bound == Some(count) || self.found.complete
-    }
-
-    /// Runs the trace test over the length of a rod.
-    fn trace(&mut self, count: usize) {
-        const MOST: usize = 5000;
-        const CUTS: usize = 4;
-        let watch = (self.watch, self.in_loops());
-        while self.cut.is_none() && self.cuts < CUTS {
-            self.cuts += 1;
-            let mut rng = generator(self.settings.seed, (1 << 45) + self.cuts as u64);
-            self.cut = RodTrace::new(
-                self.family,
-                &self.nodes[0].member,
-                (&smaller(self.settings, self.watch), &mut rng),
-                (64 + 2 * count, self.cuts - 1),
-            );
-        }
-        if let Some(cut) = self.cut.as_mut().filter(|_| count <= MOST) {
-            let points = self.nodes[0].legwise.iter();
-            let points = points.flat_map(|s| s.points(&self.family.coordinates));
-            match cut.holds(&points.collect::<Vec<_>>(), watch) {
-                Some(holds) => (self.found.complete, self.refuted) = (holds, !holds),
-                None => self.cut = None,
-            }
-        }
+        self.bound == Some(count) || self.found.search.traced
     }
 
     /// The node with most solutions among those that will do.
@@ -243,11 +149,12 @@ impl<'a> MemberSearch<'a> {
 
     fn result(mut self) -> GenericSolutions {
         let best = self.best();
+        self.found.search.refuted = self.traces.fail_for(self.count());
         let node = self.nodes.swap_remove(best);
         let mut found = self.found;
         if self.bound == Some(node.count()) {
             // no more are possible, so that what seemed to be others were these
-            found.multiple = 0;
+            found.search.multiple = 0;
         }
         if !found.endless {
             found.legwise = node.legwise;
@@ -261,7 +168,7 @@ impl<'a> MemberSearch<'a> {
     fn add(&mut self, member: Member, reach: f64) -> Option<()> {
         let still = self.family.homotopy(&member, &member)?;
         let resized = member.parameters != self.family.parameters;
-        self.found.related |= resized && !self.family.is_free;
+        self.found.search.related |= resized && !self.family.is_free;
         let new = self.nodes.len();
         self.nodes.push(GraphNode {
             member,
@@ -305,7 +212,7 @@ impl<'a> MemberSearch<'a> {
             self.newton_seeds(new);
             self.spread();
         }
-        self.found.loops = self.edges.len() + 1 - self.nodes.len();
+        self.found.search.loops = self.edges.len() + 1 - self.nodes.len();
         true
     }
 
@@ -338,10 +245,7 @@ impl<'a> MemberSearch<'a> {
         let waiting = (edge.tried[side]..node.shown.len()).filter(|k| !edge.matched[side][*k]);
         let waiting: Vec<usize> = waiting.collect();
         edge.tried[side] = node.shown.len();
-        let mut points: Vec<Option<Vec<C>>> = waiting
-            .iter()
-            .map(|k| Some(node.shown[*k].clone()))
-            .collect();
+        let starts: Vec<Vec<C>> = waiting.iter().map(|k| node.shown[*k].clone()).collect();
         let conjugate = |of: &[C]| -> Vec<C> { of.iter().map(|z| z.conj()).collect() };
         let mut end = self.nodes[to].member.clone();
         if edge.mirrored {
@@ -351,15 +255,15 @@ impl<'a> MemberSearch<'a> {
         let Some(way) = self.family.homotopy(&node.member, &end) else {
             return false;
         };
-        tracked(&way, &mut points, (self.watch, now));
+        let ends = tracked(&way, &starts, (self.watch, now));
         let resized = node.member.parameters != self.nodes[to].member.parameters;
         let node = &mut self.nodes[to];
-        for (start, x) in waiting.iter().zip(points) {
+        for (start, x) in waiting.iter().zip(ends) {
             let Some(mut x) = x else { continue };
             if edge.mirrored {
                 x = conjugate(&x);
             }
-            if !stands_alone(&mut node.still, C::from_f64(0.0), &x) {
+            if !stands_alone(&mut node.still, START, &x) {
                 // other dimensions may have solutions that meet, or go away, at the mechanism's own
                 if resized && !self.family.by_dimensions {
                     edge.mark(side, *start);
@@ -368,7 +272,7 @@ impl<'a> MemberSearch<'a> {
             }
             let (place, new) = node.learn(x);
             if new {
-                self.found.quiet_seeds = 0;
+                self.found.search.quiet_seeds = 0;
             }
             edge.mark(side, *start);
             if let Some(place) = place {
@@ -398,7 +302,7 @@ impl<'a> MemberSearch<'a> {
 
     fn is_stopped_in_seeds(&self) -> bool {
         let found = self.count();
-        (self.watch).stops(Stage::Seeds { found }, self.found.seeds, None)
+        (self.watch).stops(Stage::Seeds { found }, self.found.search.seeds, None)
     }
 
     fn in_loops(&self) -> Progress {
@@ -406,7 +310,7 @@ impl<'a> MemberSearch<'a> {
             stage: Stage::Loops {
                 found: self.count(),
             },
-            done: self.found.loops,
+            done: self.found.search.loops,
             of: None,
         }
     }
@@ -414,8 +318,9 @@ impl<'a> MemberSearch<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rod_trace::Smaller;
+    use super::super::rod_trace::{Cut, RodTrace};
     use super::*;
+    use crate::analysis::assemblies::family::points;
     use crate::description::Description;
     use crate::mechanism::Mechanism;
     use crate::system::Question;
@@ -427,18 +332,17 @@ mod tests {
         let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
         let family = Family::new(&mechanism, &Question::new(&mechanism).held());
         let (settings, watch) = (AssembliesSettings::default(), Watch::none());
-        let found = search_one(&family, "", None, &settings, &watch, None).unwrap();
-        let points = found.legwise.iter();
-        let all: Vec<Vec<C>> = points.flat_map(|s| s.points(&family.coordinates)).collect();
-        assert_eq!((all.len(), found.complete), (126, true));
+        let found = search_one(&family, "", None, &settings, &watch).unwrap();
+        let all = points(&found.legwise, &family.coordinates);
+        assert_eq!((all.len(), found.search.traced), (126, true));
         for left_out in [0, 125] {
             let mut rest = all.clone();
             rest.remove(left_out);
-            let how = (
-                &smaller(&settings, &watch) as &Smaller<'_>,
-                &mut generator(7, 0),
-            );
-            let mut test = RodTrace::new(&family, &found.member(), how, (64, 0)).unwrap();
+            let budget = Cell::new(9);
+            let smaller = smaller(&settings, &watch, &budget);
+            let how = (&smaller as &Smaller<'_>, &mut generator(7, 0));
+            let cut = Cut::all(&family, false).pop().unwrap();
+            let mut test = RodTrace::new(&family, &found.member(), cut, how).unwrap();
             let now = Progress::of(Stage::Paths);
             assert_eq!(test.holds(&rest, (&watch, now)), Some(false));
         }

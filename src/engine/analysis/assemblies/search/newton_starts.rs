@@ -1,15 +1,12 @@
 //! Newton's method from random complex points at one member of the family.
 
+use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use crate::analysis::assemblies::family::{C, size};
-use crate::analysis::assemblies::track::{ParameterHomotopy, polish, stands_alone};
-use crate::mechanism::Configuration;
-use crate::number::Number;
-use crate::solve::{Newton, Report, Stop};
-
-/// Ends of seeds farther out than this do not count: rounding decides where they are.
-const FAR: f64 = 1e5;
+use crate::analysis::assemblies::family::{C, Family, Member, size};
+use crate::analysis::assemblies::track::{ParameterHomotopy, START, polish, stands_alone};
+use crate::solve::{Newton, Stop};
+use crate::system::{System, Work};
 
 /// End of one seed.
 pub(crate) enum Seed {
@@ -22,30 +19,35 @@ pub(crate) enum Seed {
     Free(usize),
 }
 
-/// For random points: what takes longer rarely ends at a solution.
-pub(crate) fn newton() -> Newton {
-    Newton {
-        max_steps: 60,
-        ..Newton::default()
-    }
-}
-
-/// The solution that Newton's method ended at. Far out rounding keeps residuals above its tolerance;
-/// there the last digits tell.
-pub(crate) fn solution(
+/// The solution that Newton's method reaches from a point at the start of a way, by all equations or some of them. Far out
+/// rounding keeps residuals above its tolerance; there the last digits tell.
+pub(crate) fn reached(
     homotopy: &mut ParameterHomotopy<'_>,
-    report: &Report,
-    point: &Configuration<C>,
+    some: Option<(&System<C>, &mut Work<C>)>,
+    x: &[C],
 ) -> Option<Vec<C>> {
     const NEARLY: f64 = 1e-8;
-    let mut x = homotopy.family.coordinates.flatten(point);
+    /// Ends farther out than this do not count: rounding decides where they are.
+    const FAR: f64 = 1e5;
+    // what takes longer rarely ends at a solution
+    let newton = Newton {
+        max_steps: 60,
+        ..Newton::default()
+    };
+    homotopy.linearise(START, x);
+    let mut at = homotopy.here.at.clone();
+    let mut trial = at.clone();
+    let here = &mut homotopy.here;
+    let (system, work) = some.unwrap_or((&here.system, &mut here.work));
+    let report = newton.solve(system, &mut at, &mut trial, work);
+    let mut x = homotopy.family.coordinates.flatten(&at);
     if size(&x).is_nan() || size(&x) > FAR {
         return None;
     }
     match report.stop {
         Stop::Solved => Some(x),
         Stop::Minimum if report.size.largest <= NEARLY * (1.0 + size(&x).powi(2)) => {
-            polish(homotopy, C::from_f64(0.0), &mut x).then_some(x)
+            polish(homotopy, START, &mut x).then_some(x)
         }
         Stop::Minimum | Stop::StepLimit => None,
     }
@@ -57,38 +59,37 @@ pub(crate) fn newton_seeds(
     reach: f64,
     rng: &mut Pcg64,
 ) -> Seed {
-    let start = homotopy.family.random_point(rng, reach);
-    let zero = C::from_f64(0.0);
-    homotopy.linearise(zero, &start);
-    let mut point = homotopy.here.at.clone();
-    let mut trial = point.clone();
-    let report = newton().solve(
-        &homotopy.here.system,
-        &mut point,
-        &mut trial,
-        &mut homotopy.here.work,
-    );
-    let Some(x) = solution(homotopy, &report, &point) else {
+    let family = homotopy.family;
+    let Some(x) = reached(homotopy, None, &family.random_point(rng, reach)) else {
         return Seed::Nothing;
     };
-    if stands_alone(homotopy, zero, &x) {
+    if stands_alone(homotopy, START, &x) {
         return Seed::Isolated(x);
     }
     // Newton's method from beside a set of solutions ends elsewhere on it, but from beside
     // solutions that coincide at the same point again
-    homotopy.linearise(zero, &homotopy.family.shaken(&x, 0.03, rng));
-    let mut beside = homotopy.here.at.clone();
-    let report = newton().solve(
-        &homotopy.here.system,
-        &mut beside,
-        &mut trial,
-        &mut homotopy.here.work,
-    );
-    let beside = homotopy.family.coordinates.flatten(&beside);
-    let apart = homotopy.family.coordinates.difference(&x, &beside);
-    match (report.stop == Stop::Solved, apart) {
-        (true, 1e-3..1.0) => Seed::Free(homotopy.freedom(zero, &x, 1e-5)),
-        (true, ..1e-3) => Seed::Multiple(x),
+    let beside = reached(homotopy, None, &family.shaken(&x, 0.03, rng));
+    match beside.map(|beside| family.coordinates.difference(&x, &beside)) {
+        Some(1e-3..1.0) => Seed::Free(homotopy.freedom(START, &x, 1e-5)),
+        Some(..1e-3) => Seed::Multiple(x),
         _ => Seed::Nothing,
+    }
+}
+
+impl Family {
+    /// True if nothing is held and a complex solution is isolated at the mechanism's own dimensions.
+    pub fn is_isolated(&self) -> bool {
+        const SEEDS: u64 = 100;
+        let own = Member {
+            parameters: self.parameters.clone(),
+            inputs: Vec::new(),
+        };
+        let is_free = self.coordinates.inputs.is_empty();
+        let still = is_free.then(|| self.homotopy(&own, &own)).flatten();
+        still.is_some_and(|mut still| {
+            let mut seeds = (0..SEEDS).map(Pcg64::seed_from_u64);
+            seeds
+                .any(|mut rng| matches!(newton_seeds(&mut still, 1.0, &mut rng), Seed::Isolated(_)))
+        })
     }
 }

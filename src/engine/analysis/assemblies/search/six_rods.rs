@@ -26,17 +26,19 @@ struct General {
 /// A platform of which all dimensions are random complex numbers, with its 40 poses.
 const GENERAL: &str = include_str!("six_rods.ron");
 
-/// The solutions at a member, and how many of the 40 are at infinity there. `None` if the family is no platform on six rods, or
-/// within if some of them meet or a path is lost: on the straight way, or on all if no other member will do.
-pub(super) fn solved(
-    family: &Family,
-    member: &Member,
-    only: bool,
-    watch: &Watch,
-) -> Option<Option<Poses>> {
-    let bends = if only { &WAYS[..] } else { &WAYS[..1] };
-    let rods = rods(family, member)?;
-    Some(reached(family, (member, &rods), bends, watch))
+/// The solutions at the first of some members at which no path is lost and none meet, with its place, and how many of the 40
+/// are at infinity there: on the straight way, at the last one on any. `None` if the family is no platform on six rods.
+pub(super) fn solved(family: &Family, members: &[Member], watch: &Watch) -> Option<(usize, Poses)> {
+    let mut all = members.iter().enumerate();
+    all.find_map(|(k, member)| {
+        let bends = if k + 1 == members.len() {
+            &WAYS[..]
+        } else {
+            &WAYS[..1]
+        };
+        let rods = rods(family, member)?;
+        Some((k, reached(family, (member, &rods), bends, watch)?))
+    })
 }
 
 /// Solutions, and a number of others at infinity.
@@ -70,7 +72,8 @@ fn reached(
                 legs: Vec::new(),
             }),
             End::Infinite => infinite += 1,
-            End::Singular(_) | End::Either(_) | End::Lost => return None,
+            End::Gone if bends.len() == WAYS.len() => infinite += 1,
+            _ => return None,
         }
     }
     Some((solutions, infinite))

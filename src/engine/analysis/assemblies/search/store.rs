@@ -5,13 +5,14 @@
 //! was written is refused.
 
 use super::solutions::GenericSolutions;
-use crate::analysis::assemblies::family::{C, Family, size};
+use crate::analysis::assemblies::family::{Family, size, spanning_points};
+use crate::analysis::assemblies::track::START;
 use crate::mechanism::Mechanism;
-use crate::number::{Number, mark};
+use crate::number::mark;
 
 const TITLE: &str = "linkwork generic solutions, version ";
 /// Counts changes of the text and of the meaning of its numbers.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// Errors of stored solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -59,8 +60,8 @@ impl GenericSolutions {
             return false;
         };
         // the others are combinations of these
-        let mut shown = (self.legwise.iter()).flat_map(|s| s.spanning_points(&family.coordinates));
-        shown.all(|x| homotopy.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
+        let shown = spanning_points(&self.legwise, &family.coordinates);
+        (shown.iter()).all(|x| homotopy.linearise(START, x) <= 1e-9 * (1.0 + size(x).powi(2)))
     }
 }
 

@@ -16,6 +16,10 @@ impl Family {
     }
 }
 
+/// s at both ends of a way.
+pub(crate) const START: C = C::new(0.0, 0.0);
+pub(crate) const END: C = C::new(1.0, 0.0);
+
 /// A straight-line homotopy, s from 0 to 1, with storage for tracking.
 #[derive(Clone, Debug)]
 pub(crate) struct ParameterHomotopy<'f> {
@@ -31,6 +35,12 @@ pub(crate) struct ParameterHomotopy<'f> {
 }
 
 impl<'f> ParameterHomotopy<'f> {
+    /// The same way with a row that is to be `more` at its end.
+    pub fn raising(mut self, row: usize, more: C) -> Self {
+        self.course.raised = Some((row, more));
+        self
+    }
+
     /// From one system to another of the same structure, at the inputs of a member.
     pub fn between(
         family: &'f Family,

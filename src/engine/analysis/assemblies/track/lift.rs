@@ -1,16 +1,18 @@
 //! Solutions found with rods, completed by what the rods stand for.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use super::homotopy::ParameterHomotopy;
+use super::homotopy::{ParameterHomotopy, START};
 use super::path::{End, arrived};
 use crate::analysis::assemblies::family::{
-    C, Coordinates, Family, LegwiseSolutions, Member, learn, size,
+    C, Coordinates, Family, LegwiseSolutions, Member, learn, size, spanning_points,
 };
 use crate::mechanism::Dimensions;
 use crate::number::Number;
-use crate::solve::{Homotopy, Newton, Stop};
+use crate::solve::{Equations, Homotopy, Newton, Stop};
 use crate::system::{System, Work};
 
 /// The equations of every part that a rod stands for, at one member.
@@ -27,6 +29,38 @@ struct LiftPart {
     /// Of its unknowns among those of the whole.
     places: Vec<usize>,
     ways: usize,
+}
+
+impl LiftPart {
+    /// The angle φ of a single hinge at which its rows, which are a + b cos φ + c sin φ, are least, however far from real it is.
+    fn hinge_angle(&mut self, whole: &mut ParameterHomotopy<'_>, x: &[C], place: usize) -> C {
+        let mut x = x.to_vec();
+        let [at_zero, at_right, at_half] = [0.0, FRAC_PI_2, PI].map(|angle| {
+            x[place] = C::from_f64(angle);
+            whole.residual(START, &x);
+            self.system.residual(&whole.here.at, &mut self.work);
+            self.system.residual_of(&self.work).to_vec()
+        });
+        let half = |sign: f64| -> Vec<C> {
+            let pairs = at_zero.iter().zip(&at_half);
+            pairs.map(|(x, y)| (x + y * sign) * 0.5).collect()
+        };
+        let (a, b) = (half(1.0), half(-1.0));
+        let c: Vec<C> = at_right.iter().zip(&a).map(|(x, a)| x - a).collect();
+        let dot = |x: &[C], y: &[C]| -> C { x.iter().zip(y).map(|(x, y)| x.conj() * y).sum() };
+        let (bb, bc, cc) = (dot(&b, &b), dot(&b, &c), dot(&c, &c));
+        let (ba, ca) = (dot(&b, &a), dot(&c, &a));
+        let size = bb * cc - bc * bc.conj();
+        let cos = (bc * ca - cc * ba) / size;
+        let sin = (bc.conj() * ba - bb * ca) / size;
+        // of exp(iφ) and exp(−iφ) the larger one has all digits
+        let i = C::new(0.0, 1.0);
+        let [forth, back] = [cos + i * sin, cos - i * sin];
+        match forth.norm_sqr() >= back.norm_sqr() {
+            true => -i * Number::ln(forth),
+            false => i * Number::ln(back),
+        }
+    }
 }
 
 impl<'f> Lift<'f> {
@@ -67,10 +101,16 @@ impl<'f> Lift<'f> {
         rest.zip(x).for_each(|(place, x)| whole[place] = *x);
         let mut found: Vec<Vec<Vec<C>>> = vec![Vec::new(); self.parts.len()];
         for (part, found) in self.parts.iter_mut().zip(&mut found) {
+            if let [place] = part.places[..] {
+                found.push(vec![part.hinge_angle(&mut self.whole, &whole, place)]);
+                continue;
+            }
             for k in 0..TRIES {
-                let random = family.random_point(&mut Pcg64::seed_from_u64(k), 1.0);
+                // most ways are near, some far out
+                let reach = [1.0, 1.0, 4.0, 16.0, 64.0][k as usize % 5];
+                let random = family.random_point(&mut Pcg64::seed_from_u64(k), reach);
                 (part.places.iter()).for_each(|&place| whole[place] = random[place]);
-                self.whole.residual(C::from_f64(0.0), &whole);
+                self.whole.residual(START, &whole);
                 let mut at = self.whole.here.at.clone();
                 let mut trial = at.clone();
                 let newton = Newton::default();
@@ -138,7 +178,7 @@ pub(crate) fn reduced(family: &Family, legwise: &[LegwiseSolutions]) -> Vec<Legw
     let mut all = Vec::new();
     if let Some(reduced) = &family.reduced {
         let (whole, rest) = (&family.coordinates, &reduced.coordinates);
-        for x in legwise.iter().flat_map(|s| s.spanning_points(whole)) {
+        for x in spanning_points(legwise, whole) {
             let x: Vec<C> = kept(whole, rest).map(|place| x[place]).collect();
             learn(&mut all, rest, &x);
         }

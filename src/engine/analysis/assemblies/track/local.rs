@@ -4,10 +4,10 @@
 //! neighbour of the point (at the point itself branches may meet). A null vector is not taken for a
 //! motion: a multiple solution attracts what starts beside it.
 
-use super::homotopy::ParameterHomotopy;
+use super::homotopy::{END, ParameterHomotopy};
 use crate::analysis::assemblies::family::{C, size};
 use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd, add, dot, independent, norm, singular_values};
-use crate::number::{Number, real};
+use crate::number::real;
 use crate::solve::deflating_step;
 
 /// Singular values this small relative to the largest may be zero.
@@ -17,8 +17,6 @@ const BESIDE: [f64; 2] = [0.03, 2e-3];
 /// A point that comes back to within this part of the distance it was moved has returned.
 const BACK: f64 = 0.1;
 const NEIGHBOURS: u64 = 4;
-/// The end of the homotopy, where the target inputs are.
-const END: f64 = 1.0;
 
 /// The equations at the target inputs as real ones: about real points the real parts, elsewhere real
 /// and imaginary parts one after the other.
@@ -255,11 +253,11 @@ impl<'a, 'f> Local<'a, 'f> {
         let n = self.homotopy.unknowns();
         let part = |i: usize| C::new(step[i], if self.real { 0.0 } else { step[n + i] });
         let step: Vec<C> = (0..n).map(part).collect();
-        self.homotopy.moved(C::from_f64(END), x, &step)
+        self.homotopy.moved(END, x, &step)
     }
 
     fn step_between(&mut self, x: &[C], y: &[C]) -> Vec<f64> {
-        let step = self.homotopy.step_between(C::from_f64(END), x, y);
+        let step = self.homotopy.step_between(END, x, y);
         self.as_real(&step)
     }
 
@@ -272,7 +270,7 @@ impl<'a, 'f> Local<'a, 'f> {
 
     /// Residual and Jacobian as real numbers, column-major.
     fn evaluated(&mut self, x: &[C]) -> (Vec<f64>, Vec<f64>) {
-        let (r, j) = self.homotopy.evaluated(C::from_f64(END), x);
+        let (r, j) = self.homotopy.evaluated(END, x);
         let columns = |turned: C| j.chunks_exact(r.len().max(1)).map(move |of| (of, turned));
         // columns of imaginary unknowns are those of real ones times i
         let sides = [C::new(1.0, 0.0), C::new(0.0, 1.0)].into_iter();

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use super::homotopy::{END, START};
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::number::Dual;
+use crate::number::{Dual, complex::norm};
 use crate::solve::Equations;
 use crate::system::{ConstantsCourse, System, Work};
 
@@ -16,6 +17,8 @@ pub(crate) struct MemberSegment {
     pub change: Member,
     /// True if dimensions change, false if only inputs do.
     pub resized: bool,
+    /// A row, and what it is to be more at the end.
+    pub raised: Option<(usize, C)>,
 }
 
 impl MemberSegment {
@@ -29,6 +32,7 @@ impl MemberSegment {
             resized: change.parameters.iter().any(|x| x.norm_sqr() > 0.0),
             from: from.clone(),
             change,
+            raised: None,
         }
     }
 
@@ -48,6 +52,8 @@ pub(crate) struct MemberEquations {
     /// True if all expressions have values here.
     pub sound: bool,
     inputs: Vec<C>,
+    /// A row, and what it is to be more here.
+    raised: Option<(usize, C)>,
     s: Option<C>,
     /// The way of the dimensions as numbers, where their relations need not be kept.
     numbers: Option<Arc<ConstantsCourse<C>>>,
@@ -62,7 +68,7 @@ impl MemberEquations {
     pub fn start(family: &Family, course: &MemberSegment) -> Option<Self> {
         let system = family.system(&course.from.parameters)?;
         if course.resized && family.is_free {
-            let end = family.system(&course.parameters(C::new(1.0, 0.0)))?;
+            let end = family.system(&course.parameters(END))?;
             let way = MemberEquations::between(family, course, (&system, &end));
             if way.is_some() {
                 return way;
@@ -98,12 +104,13 @@ impl MemberEquations {
             at: family.home.map(|x| C::new(x, 0.0)),
             sound: true,
             inputs: course.from.inputs.clone(),
+            raised: None,
             s: None,
             numbers,
-            rates: vec![C::new(0.0, 0.0); family.home.joints.len()],
+            rates: vec![START; family.home.joints.len()],
             slots: Vec::new(),
         };
-        place.go(family, course, C::new(0.0, 0.0));
+        place.go(family, course, START);
         place
     }
 
@@ -123,6 +130,7 @@ impl MemberEquations {
                 self.system.refit(&mut self.work);
             }
         }
+        self.raised = course.raised.map(|(row, more)| (row, more * s));
         let inputs = course.from.inputs.iter().zip(&course.change.inputs);
         for (x, (a, d)) in self.inputs.iter_mut().zip(inputs) {
             *x = a + d * s;
@@ -151,7 +159,7 @@ impl MemberEquations {
     pub fn drift(&mut self, family: &Family, course: &MemberSegment) -> bool {
         /// Step of s over which dimensions are compared where their relations are kept.
         const APART: f64 = 1e-7;
-        let s = self.s.unwrap_or(C::new(0.0, 0.0));
+        let s = self.s.unwrap_or(START);
         let still = (Vector3::zero(), Vector3::zero());
         self.slots
             .resize(self.system.placement(&self.work).0.len(), still);
@@ -179,11 +187,14 @@ impl MemberEquations {
             let Some((_, ahead)) = ahead else {
                 return false;
             };
-            way = Some((Arc::new(ahead.stretched(1.0 / APART)), C::new(0.0, 0.0)));
+            way = Some((Arc::new(ahead.stretched(1.0 / APART)), START));
         }
         let way = way.as_ref().map(|(course, s)| (&**course, *s));
         let (system, work) = (&self.system, &mut self.work);
         system.drift(&self.at, &self.rates, way, &mut self.slots, work);
+        if let Some((row, more)) = course.raised {
+            system.residual_mut(work)[row] -= more;
+        }
         for ((input, x), (_, change)) in changes() {
             let dual = |i: usize| Dual {
                 value: x[i],
@@ -215,7 +226,7 @@ impl MemberEquations {
             ..
         } = &family.coordinates;
         let freedom = |travel_is_held: bool| {
-            let s = self.s.unwrap_or(C::new(0.0, 0.0));
+            let s = self.s.unwrap_or(START);
             let mut dimensions = family.dimensions(&course.parameters(s))?;
             let (mut held, mut at) = (family.held.clone(), self.at.clone());
             for &screw in screws {
@@ -241,12 +252,24 @@ impl MemberEquations {
 
     /// Residual and Jacobian at `at`; returns the largest residual.
     pub fn linearise(&mut self) -> f64 {
-        self.system.linearise(&self.at, &mut self.work).largest
+        let largest = self.system.linearise(&self.at, &mut self.work).largest;
+        self.lowered(largest)
     }
 
     /// The largest residual at `at`.
     pub fn residual(&mut self) -> f64 {
-        self.system.residual(&self.at, &mut self.work).largest
+        let largest = self.system.residual(&self.at, &mut self.work).largest;
+        self.lowered(largest)
+    }
+
+    /// The largest residual once that of a row that is to be more is less.
+    fn lowered(&mut self, largest: f64) -> f64 {
+        let Some((row, more)) = self.raised else {
+            return largest;
+        };
+        let residual = self.system.residual_mut(&mut self.work);
+        residual[row] -= more;
+        residual.iter().map(|x| norm(*x)).fold(0.0, f64::max)
     }
 }
 

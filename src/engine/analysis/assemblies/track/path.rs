@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::along::polish;
-use super::homotopy::{FAR, ParameterHomotopy};
+use super::homotopy::{END, FAR, ParameterHomotopy, START};
 use super::local::Local;
 use super::simple::{are_one, stands_alone};
 use crate::analysis::assemblies::family::{C, size};
@@ -23,6 +23,8 @@ pub(crate) enum End {
     /// One of two regular solutions too near each other to tell which; another path ends at the other.
     Either([Vec<C>; 2]),
     Infinite,
+    /// Far out on its way; it may come back.
+    Gone,
     Lost,
 }
 
@@ -31,23 +33,21 @@ impl End {
     pub fn point(&self) -> Option<&Vec<C>> {
         match self {
             End::Regular(x) | End::Singular(x) => Some(x),
-            End::Either(_) | End::Infinite | End::Lost => None,
+            _ => None,
         }
     }
 }
 
 /// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;
-/// Distance to the side at which points far out on the real way are passed, through complex s.
-const ASIDE: f64 = 0.4;
 /// Segments longer than this, in rad or characteristic lengths, are tracked in parts.
 const LONG: f64 = 10.0;
 
 /// A tracked path.
+#[derive(Clone)]
 pub(crate) struct Path {
     pub end: End,
     pub steps: usize,
-    pub evaluations: usize,
 }
 
 /// Tracks one path along an arc through complex s, bent to the side by `bend`.
@@ -58,22 +58,17 @@ pub(crate) fn follow(
     from: &[C],
     watch: (&Watch, Progress),
 ) -> Path {
-    let (start, end) = (C::from_f64(0.0), C::from_f64(1.0));
     let mut stages = Stages::new(from.len(), watch);
-    let (mut steps, mut evaluations) = (0, 0);
-    let mut x = from.to_vec();
+    let mut steps = 0;
+    let (mut x, mut here) = (from.to_vec(), START);
     let mut leg = |homotopy: &mut ParameterHomotopy<'_>,
-                   x: &mut Vec<C>,
+                   x: &mut [C],
                    stages: &mut Stages<'_>,
-                   a: C,
-                   b: C| {
+                   (a, b): (C, C)| {
         let track = tracker.track(homotopy, (a, b), x, stages);
         steps += track.steps;
-        evaluations += track.evaluations;
         track.arrival
     };
-    let mut from_here = start;
-    let mut arrival = Arrival::There;
     // each part ten times as long as all before it
     let decades = real::log10(homotopy.length() / LONG)
         .ceil()
@@ -85,62 +80,35 @@ pub(crate) fn follow(
     if bend != 0.0 {
         corners.extend([C::new(0.3, bend), C::new(0.8, bend)]);
     }
-    let straight = corners.is_empty();
+    let mut arrival = Arrival::There;
     for corner in corners {
         if arrival == Arrival::There {
-            arrival = leg(homotopy, &mut x, &mut stages, from_here, corner);
-            from_here = corner;
+            arrival = leg(homotopy, &mut x, &mut stages, (here, corner));
+            here = corner;
         }
     }
     let far = FAR * homotopy.reach();
-    let corner = x.clone();
-    let found = match arrival {
-        Arrival::There => {
-            arrival = leg(homotopy, &mut x, &mut stages, from_here, end);
-            (arrival == Arrival::There)
-                .then(|| arrived(homotopy, &x))
-                .flatten()
+    let mut found = None;
+    if arrival == Arrival::There {
+        let corner = x.clone();
+        if leg(homotopy, &mut x, &mut stages, (here, END)) == Arrival::There {
+            found = arrived(homotopy, &x);
         }
-        // a corner is a generic point: only what is far out does not get there
-        Arrival::Diverged(_) => Some(End::Infinite),
-        Arrival::Stuck(_) if decades > 0 && homotopy.extent(&x) > FAR => Some(End::Infinite),
-        Arrival::Stuck(_) => Some(End::Lost),
-    };
-    let end = found.unwrap_or_else(|| {
-        // not regular: Cauchy endgame
-        let mut x = corner;
-        let short = C::from_f64(1.0 - NEAR_END);
-        let mut reached = leg(homotopy, &mut x, &mut stages, from_here, short);
-        // beyond this rounding may stop a path that goes on outwards
-        let is_gone = match reached {
-            Arrival::There => false,
-            Arrival::Diverged(_) => true,
-            Arrival::Stuck(_) => homotopy.extent(&x) > if decades > 0 { FAR } else { far },
-        };
-        // far out on its way is not far out at its end: past what is in the way, on either side
-        let may_return = is_gone && straight;
-        for side in [ASIDE, -ASIDE] {
-            if may_return && reached != Arrival::There {
-                x = from.to_vec();
-                let way = [start, C::new(0.3, side), C::new(0.8, side), short];
-                let mut arrivals = (way.windows(2))
-                    .map(|part| leg(homotopy, &mut x, &mut stages, part[0], part[1]));
-                if arrivals.all(|arrival| arrival == Arrival::There) {
-                    reached = Arrival::There;
-                }
-            }
+        if found.is_none() {
+            // not regular: Cauchy endgame
+            x = corner;
+            let short = C::from_f64(1.0 - NEAR_END);
+            arrival = leg(homotopy, &mut x, &mut stages, (here, short));
         }
-        match reached {
-            Arrival::There => go_round(homotopy, tracker, far, &x, &mut stages),
-            _ if is_gone => End::Infinite,
-            _ => End::Lost,
-        }
-    });
-    Path {
-        end,
-        steps,
-        evaluations,
     }
+    let end = found.unwrap_or_else(|| match arrival {
+        Arrival::There => go_round(homotopy, tracker, far, &x, &mut stages),
+        Arrival::Diverged(_) => End::Gone,
+        // beyond this rounding may stop a path
+        Arrival::Stuck(_) if homotopy.extent(&x) > if decades > 0 { FAR } else { far } => End::Gone,
+        Arrival::Stuck(_) => End::Lost,
+    });
+    Path { end, steps }
 }
 
 /// The regular endpoint that a point is at; `None` if there is none, or it is too far out.
@@ -151,8 +119,7 @@ pub(crate) fn arrived(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<E
 
 /// True if Newton's method converges quadratically to a simple solution.
 fn settles(homotopy: &mut ParameterHomotopy<'_>, x: &mut [C]) -> bool {
-    let end = C::from_f64(1.0);
-    polish(homotopy, end, x) && stands_alone(homotopy, end, x)
+    polish(homotopy, END, x) && stands_alone(homotopy, END, x)
 }
 
 /// The two simple solutions beside a point where they seem to coincide: the roots t of
@@ -160,8 +127,7 @@ fn settles(homotopy: &mut ParameterHomotopy<'_>, x: &mut [C]) -> bool {
 fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
     const STEP: f64 = 1e-4;
     const REACH: f64 = 1e-3;
-    let end = C::from_f64(1.0);
-    let (residual, jacobian) = homotopy.evaluated(end, x);
+    let (residual, jacobian) = homotopy.evaluated(END, x);
     let (rows, columns) = (residual.len(), homotopy.unknowns());
     if columns == 0 || rows < columns {
         return None;
@@ -174,8 +140,8 @@ fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> 
     let v: Vec<C> = right.row(last).iter().map(|z| z.conj()).collect();
     let ahead = |length: C| v.iter().map(|v| v * length).collect::<Vec<C>>();
     let mut slope = |length: f64| {
-        let at = homotopy.moved(end, x, &ahead(C::from_f64(length)));
-        let (_, jacobian) = homotopy.evaluated(end, &at);
+        let at = homotopy.moved(END, x, &ahead(C::from_f64(length)));
+        let (_, jacobian) = homotopy.evaluated(END, &at);
         w.dot(&(matrix(jacobian) * DVector::from_column_slice(&v)))
     };
     let (after, before) = (slope(STEP), slope(-STEP));
@@ -186,12 +152,12 @@ fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> 
     let mut both = [1.0, -1.0].map(|sign| {
         let length = (root * sign - along) / bent;
         let near = length.is_finite() && complex::norm(length) < REACH;
-        near.then(|| homotopy.moved(end, x, &ahead(length)))
+        near.then(|| homotopy.moved(END, x, &ahead(length)))
     });
     let [Some(a), Some(b)] = &mut both else {
         return None;
     };
-    let apart = settles(homotopy, a) && settles(homotopy, b) && !are_one(homotopy, end, a, b);
+    let apart = settles(homotopy, a) && settles(homotopy, b) && !are_one(homotopy, END, a, b);
     let near = |y: &[C]| homotopy.family.coordinates.difference(x, y) < 2.0 * REACH;
     (apart && near(a) && near(b)).then(|| [a.clone(), b.clone()])
 }
@@ -206,7 +172,6 @@ fn go_round(
     match path_end(homotopy, tracker, x, NEAR_END, stages) {
         PathEnd::Finite { mut x, winding } => {
             homotopy.family.coordinates.settle(&mut x);
-            let end = C::from_f64(1.0);
             let mut refined = x.clone();
             let near = |homotopy: &ParameterHomotopy<'_>, y: &[C]| {
                 homotopy.family.coordinates.difference(&x, y) < 1e-6 * size(y).max(1.0)
@@ -227,7 +192,7 @@ fn go_round(
             // what Newton's method calls solved; where more is left solutions pass each other
             let meeting = Newton::default().tolerance.max(EXACT * size(&x).powi(2));
             let x = Local::new(homotopy, false).refined(&x);
-            match homotopy.residual(end, &x) <= meeting {
+            match homotopy.residual(END, &x) <= meeting {
                 true => End::Singular(x),
                 false => End::Lost,
             }

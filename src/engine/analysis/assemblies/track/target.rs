@@ -2,14 +2,14 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::homotopy::ParameterHomotopy;
+use super::along::repeated;
+use super::homotopy::{END, ParameterHomotopy};
 use super::lift::{Lift, reduced};
 use super::path::{End, Path, arrived, follow};
 use super::simple::{are_one, near};
 use crate::analysis::assemblies::family::{
-    C, Coordinates, Family, LegwiseSolutions, Member, learn,
+    C, Coordinates, Family, LegwiseSolutions, Member, learn, spanning_points,
 };
-use crate::number::Number;
 use crate::solve::{Progress, Stage, Tracker, Watch, each};
 
 /// Endpoints of all paths, and the work of tracking them.
@@ -19,13 +19,15 @@ pub(crate) struct Ends {
     /// Paths tracked, each once: fewer than ends where legs close apart from one another.
     pub paths: usize,
     pub steps: usize,
-    pub evaluations: usize,
     pub retries: usize,
 }
 
 impl Ends {
-    fn lost(&self) -> usize {
-        self.ends.iter().filter(|end| **end == End::Lost).count()
+    /// Number of paths that are lost or may come back from far out, and of those lost.
+    fn undecided(&self) -> (usize, usize) {
+        let count = |one: End| self.ends.iter().filter(|end| **end == one).count();
+        let lost = count(End::Lost);
+        (lost + count(End::Gone), lost)
     }
 }
 
@@ -33,7 +35,7 @@ impl Ends {
 /// are combinations of their endpoints. A pose of which one endpoint is not regular has all its
 /// solutions tracked.
 ///
-/// If paths are lost, all are tracked again along arcs through complex s. Paths not tracked when the
+/// If paths are undecided, all are tracked again along arcs through complex s. Paths not tracked when the
 /// work was stopped count as lost.
 pub(crate) fn track_to_target(
     family: &Family,
@@ -42,10 +44,8 @@ pub(crate) fn track_to_target(
     legwise: &[LegwiseSolutions],
     watch: &Watch,
 ) -> Option<Ends> {
-    if let Some(ends) = tracked_with_rods(family, (from, to), legwise, watch) {
-        return Some(ends);
-    }
-    ends(&family.homotopy(from, to)?, legwise, watch)
+    let with_rods = tracked_with_rods(family, (from, to), legwise, watch);
+    with_rods.or_else(|| ends_by(&WAYS, &family.homotopy(from, to)?, legwise, watch))
 }
 
 /// Paths tracked with rods in place of parts that are no more. `None` if there are none, or an end is not regular.
@@ -56,7 +56,7 @@ fn tracked_with_rods(
     watch: &Watch,
 ) -> Option<Ends> {
     let with_rods = family.reduced.as_ref()?.homotopy(from, to)?;
-    let mut all = ends(&with_rods, &reduced(family, legwise), watch)?;
+    let mut all = ends_by(&WAYS, &with_rods, &reduced(family, legwise), watch)?;
     let lift = Lift::new(family, to)?;
     let found = std::mem::take(&mut all.ends);
     let lifted = each(found.len(), &lift, |lift, k| match &found[k] {
@@ -64,29 +64,18 @@ fn tracked_with_rods(
             let points = lift.of(x)?.points(&family.coordinates).into_iter();
             Some(points.map(End::Regular).collect())
         }
-        End::Infinite => Some(vec![End::Infinite; family.ways()]),
+        End::Infinite | End::Gone => Some(vec![found[k].clone(); family.ways()]),
         End::Singular(_) | End::Either(_) | End::Lost => None,
     });
-    all.ends = lifted
-        .into_iter()
-        .collect::<Option<Vec<Vec<End>>>>()?
-        .concat();
+    let lifted: Option<Vec<Vec<End>>> = lifted.into_iter().collect();
+    all.ends = lifted?.concat();
     Some(all)
-}
-
-/// The ends of all paths of a homotopy.
-fn ends(
-    homotopy: &ParameterHomotopy<'_>,
-    legwise: &[LegwiseSolutions],
-    watch: &Watch,
-) -> Option<Ends> {
-    ends_by(&WAYS, homotopy, legwise, watch)
 }
 
 /// Bends of the ways that are tried one after the other.
 pub(crate) const WAYS: [f64; 5] = [0.0, 0.4, -0.4, 0.8, -0.8];
 
-/// The ends of all paths of a homotopy by the first of some ways that loses none, or the fewest.
+/// The ends of all paths of a homotopy by the first of some ways that leaves none undecided, or the fewest.
 pub(crate) fn ends_by(
     bends: &[f64],
     homotopy: &ParameterHomotopy<'_>,
@@ -108,10 +97,10 @@ pub(crate) fn ends_by(
         let ends = batch.combined(legwise);
         retries += ends.retries;
         best = match best {
-            Some(best) if best.lost() <= ends.lost() => Some(best),
+            Some(best) if best.undecided() <= ends.undecided() => Some(best),
             _ => Some(ends),
         };
-        if watch.is_stopped() || best.as_ref().is_some_and(|best| best.lost() == 0) {
+        if watch.is_stopped() || best.as_ref().is_some_and(|best| best.undecided().0 == 0) {
             break;
         }
     }
@@ -152,8 +141,7 @@ impl PathBatch<'_, '_> {
 
     fn combined(&mut self, legwise: &[LegwiseSolutions]) -> Ends {
         let coordinates = &self.homotopy.family.coordinates;
-        let spanning = legwise.iter().flat_map(|s| s.spanning_points(coordinates));
-        let mut all = self.tracked(&spanning.collect::<Vec<_>>());
+        let mut all = self.tracked(&spanning_points(legwise, coordinates));
         let shown = std::mem::take(&mut all.ends);
         let mut shown = shown.as_slice();
         let mut points: Vec<Vec<C>> = Vec::new();
@@ -191,13 +179,12 @@ impl PathBatch<'_, '_> {
             all.ends.extend(more.ends);
             all.paths += more.paths;
             all.steps += more.steps;
-            all.evaluations += more.evaluations;
             all.retries += more.retries;
         }
         // of paths that still share a regular endpoint only one can be right
         for i in 0..all.ends.len() {
             let (before, rest) = all.ends.split_at_mut(i);
-            if self.any_is(&rest[0], before) {
+            if self.any_is(&rest[0], before.iter()) {
                 rest[0] = End::Lost;
             }
         }
@@ -206,53 +193,44 @@ impl PathBatch<'_, '_> {
 
     /// Tracks every solution, those that are lost or share an endpoint again with smaller steps.
     fn tracked(&mut self, solutions: &[Vec<C>]) -> Ends {
-        let mut all = Ends {
-            ends: vec![End::Lost; solutions.len()],
-            paths: solutions.len(),
-            ..Ends::default()
+        let trackers = [0, 1, 2].map(|level| self.tracker(level));
+        let (homotopy, bend, followed, watch) =
+            (self.homotopy, self.bend, self.followed, self.watch);
+        let before = followed.load(Ordering::Relaxed);
+        let lost = Path {
+            end: End::Lost,
+            steps: 0,
         };
-        let mut waiting: Vec<usize> = (0..solutions.len()).collect();
-        for level in 0..=2 {
-            let tracker = self.tracker(level);
-            let (bend, followed, watch) = (self.bend, self.followed, self.watch);
-            let paths: Vec<Option<Path>> = each(waiting.len(), self.homotopy, |homotopy, k| {
-                let now = Progress {
-                    done: followed.fetch_add(1, Ordering::Relaxed),
-                    ..Progress::of(Stage::Paths)
-                };
-                if watch.at(now).is_break() {
-                    return None;
-                }
-                let from = &solutions[waiting[k]];
-                let path = follow(homotopy, &tracker, bend, from, (watch, now));
-                // one that was stopped on its way ends nowhere
-                (!watch.is_stopped()).then_some(path)
-            });
-            for (&i, path) in waiting.iter().zip(paths) {
-                let Some(path) = path else { continue };
-                all.steps += path.steps;
-                all.evaluations += path.evaluations;
-                all.ends[i] = path.end;
+        let mut paths = vec![lost; solutions.len()];
+        let track = |homotopy: &mut ParameterHomotopy<'_>, tracker: &Tracker, i: usize| {
+            let now = Progress {
+                done: followed.fetch_add(1, Ordering::Relaxed),
+                ..Progress::of(Stage::Paths)
+            };
+            if watch.at(now).is_break() {
+                return None;
             }
-            self.share_out(&mut all.ends);
-            if level == 2 || watch.is_stopped() {
-                break;
-            }
-            waiting = self.doubtful(&all.ends);
-            all.retries += waiting.len();
+            let path = follow(homotopy, tracker, bend, &solutions[i], (watch, now));
+            // one that was stopped on its way ends nowhere
+            (!watch.is_stopped()).then_some(path)
+        };
+        repeated(homotopy, (&trackers, watch), &mut paths, track, |paths| {
+            self.share_out(paths);
+            self.doubtful(paths)
+        });
+        Ends {
+            paths: paths.len(),
+            steps: paths.iter().map(|path| path.steps).sum(),
+            retries: followed.load(Ordering::Relaxed) - before - paths.len(),
+            ends: paths.into_iter().map(|path| path.end).collect(),
         }
-        all
     }
 
     /// True if one of the ends is the same regular solution as the first one.
-    fn any_is(&mut self, end: &End, others: &[End]) -> bool {
-        match end {
-            End::Regular(x) => {
-                let near = near(x);
-                others.iter().any(|other| self.is(near, x, other))
-            }
-            _ => false,
-        }
+    fn any_is<'e>(&mut self, end: &End, mut others: impl Iterator<Item = &'e End>) -> bool {
+        let End::Regular(x) = end else { return false };
+        let near = near(x);
+        others.any(|other| self.is(near, x, other))
     }
 
     /// True if an end is the solution `x`; `near` is the largest distance, from the size of `x`.
@@ -260,34 +238,34 @@ impl PathBatch<'_, '_> {
         let End::Regular(y) = end else { return false };
         self.homotopy.family.coordinates.within(near, x, y) && {
             let homotopy = self.storage.get_or_insert_with(|| self.homotopy.clone());
-            are_one(homotopy, C::from_f64(1.0), x, y)
+            are_one(homotopy, END, x, y)
         }
     }
 
     /// Gives each path that ends at either of two solutions one that no other path ends at.
-    fn share_out(&mut self, ends: &mut [End]) {
-        for i in 0..ends.len() {
-            if let End::Either(both) = ends[i].clone() {
+    fn share_out(&mut self, paths: &mut [Path]) {
+        for i in 0..paths.len() {
+            if let End::Either(both) = paths[i].end.clone() {
                 let mut both = both.into_iter().map(End::Regular);
-                let free = both.find(|end| !self.any_is(end, ends));
-                ends[i] = free.unwrap_or(End::Lost);
+                let free = both.find(|end| !self.any_is(end, paths.iter().map(|path| &path.end)));
+                paths[i].end = free.unwrap_or(End::Lost);
             }
         }
     }
 
     /// Paths that were lost, and those that share a regular endpoint.
-    fn doubtful(&mut self, ends: &[End]) -> Vec<usize> {
-        let mut doubtful: Vec<bool> = ends.iter().map(|end| *end == End::Lost).collect();
-        for (i, end) in ends.iter().enumerate() {
-            let End::Regular(x) = end else { continue };
+    fn doubtful(&mut self, paths: &[Path]) -> Vec<usize> {
+        let mut doubtful: Vec<bool> = paths.iter().map(|path| path.end == End::Lost).collect();
+        for (i, path) in paths.iter().enumerate() {
+            let End::Regular(x) = &path.end else { continue };
             let near = near(x);
-            for (j, other) in ends[..i].iter().enumerate() {
-                if self.is(near, x, other) {
+            for (j, other) in paths[..i].iter().enumerate() {
+                if self.is(near, x, &other.end) {
                     (doubtful[i], doubtful[j]) = (true, true);
                 }
             }
         }
-        (0..ends.len()).filter(|&i| doubtful[i]).collect()
+        (0..paths.len()).filter(|&i| doubtful[i]).collect()
     }
 }
 

@@ -2,9 +2,8 @@
 
 use super::{MemberSearch, generator};
 use crate::analysis::assemblies::family::{C, Coordinates, size};
-use crate::analysis::assemblies::search::newton_starts::{Seed, newton, newton_seeds, solution};
-use crate::analysis::assemblies::track::stands_alone;
-use crate::number::Number;
+use crate::analysis::assemblies::search::newton_starts::{Seed, newton_seeds, reached};
+use crate::analysis::assemblies::track::{START, stands_alone};
 use crate::system::System;
 
 /// Seeds started at once at a node.
@@ -17,7 +16,6 @@ impl MemberSearch<'_> {
     pub(super) fn is_endless(&mut self) -> bool {
         const BATCHES: usize = 4;
         const ENDS: usize = 64;
-        let zero = C::from_f64(0.0);
         let Coordinates {
             screws,
             incommensurate,
@@ -26,7 +24,7 @@ impl MemberSearch<'_> {
         let node = &mut self.nodes[0];
         if !(screws.is_empty() && incommensurate.is_empty()) {
             let mut known = node.shown.iter();
-            self.found.endless = known.any(|x| node.still.is_endless(zero, x));
+            self.found.endless = known.any(|x| node.still.is_endless(START, x));
         }
         if self.found.endless || self.nodes[0].legwise.len() < self.doubtful {
             return self.found.endless;
@@ -49,7 +47,7 @@ impl MemberSearch<'_> {
     /// rotations grow with every joint.
     fn seeds(&mut self, node: usize) -> Vec<Vec<C>> {
         const BLURRED: f64 = 1e-3;
-        let (first, seed) = (self.found.seeds, self.settings.seed);
+        let (first, seed) = (self.found.search.seeds, self.settings.seed);
         let at = &self.nodes[node];
         let reach = at.reach;
         let ends = crate::solve::each(BATCH, &at.still, |homotopy, i| {
@@ -58,7 +56,7 @@ impl MemberSearch<'_> {
             let further = [1.0, 2.0, 1.0, 4.0, 1.0, 16.0, 2.0, 64.0][(first + i) % 8];
             newton_seeds(homotopy, reach * further, &mut rng)
         });
-        self.found.seeds += BATCH;
+        self.found.search.seeds += BATCH;
         let mut isolated = Vec::new();
         for end in ends {
             match end {
@@ -69,7 +67,7 @@ impl MemberSearch<'_> {
                         self.family.coordinates.within(limit, &x, y)
                     };
                     let other = self.is_own(node) && !at.shown.iter().any(near);
-                    self.found.multiple += usize::from(other);
+                    self.found.search.multiple += usize::from(other);
                 }
                 Seed::Isolated(x) => isolated.push(x),
                 Seed::Free(freedom) => {
@@ -79,7 +77,7 @@ impl MemberSearch<'_> {
                         _ => found.freedom.min(freedom),
                     };
                     found.not_isolated += 1;
-                    found.quiet_seeds += 1;
+                    found.search.quiet_seeds += 1;
                 }
             }
         }
@@ -114,12 +112,8 @@ impl MemberSearch<'_> {
                 let mut rng = generator(seed, stream);
                 let random = still.family.random_point(&mut rng, 1.0);
                 places.iter().for_each(|&place| x[place] = random[place]);
-                still.linearise(C::from_f64(0.0), &x);
-                let mut point = still.here.at.clone();
-                let mut trial = point.clone();
-                let report = newton().solve(&system, &mut point, &mut trial, work);
-                let x = solution(still, &report, &point)?;
-                stands_alone(still, C::from_f64(0.0), &x).then_some(x)
+                let x = reached(still, Some((&system, work)), &x)?;
+                stands_alone(still, START, &x).then_some(x)
             });
             for x in ends.into_iter().flatten() {
                 new |= node.learn(x).1;
@@ -131,8 +125,8 @@ impl MemberSearch<'_> {
     pub(super) fn newton_seeds(&mut self, node: usize) {
         for x in self.seeds(node) {
             match self.nodes[node].learn(x).1 {
-                true => self.found.quiet_seeds = 0,
-                false => self.found.quiet_seeds += 1,
+                true => self.found.search.quiet_seeds = 0,
+                false => self.found.search.quiet_seeds += 1,
             }
         }
     }
