@@ -8,18 +8,13 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::{Mutex, PoisonError};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// One browser at a time: the scripts wait for answers, and these come late where others take the processor.
-static BROWSER: Mutex<()> = Mutex::new(());
-
 /// Runs a script of `tests/page`; all that it prints is shown if it fails.
 fn run(script: &str) {
-    let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
     let output = Command::new("node")
         .arg(root().join("tests/page").join(script))
         .env("LINKWORK", env!("CARGO_BIN_EXE_linkwork"))
