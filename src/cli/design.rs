@@ -4,21 +4,22 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use linkwork::algebra::{Measure, ends_with_one_unit};
-use linkwork::ask::{self, DesignError, DrawnDesign};
+use linkwork::ask::{self, DesignError};
 use linkwork::description::{
     Description, DesignDescription, DesignGoal, DesignPart, Entry, FileError, LoadError, MAX_BYTES,
-    Named, Problem, ProblemKind, Spanned, is_design, load_text,
+    Named, Problem, ProblemKind, Spanned, Varied, is_design, load_text,
 };
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::Complaint;
+use linkwork::output::design::{front, panel, panels_moving};
 use linkwork::output::diagnostics;
-use linkwork::output::drawing::{DrawingSettings, Panel, sheet};
-use linkwork::scene::{Mark, Scene, Trace};
+use linkwork::output::drawing::sheet;
 
 use super::format::Format;
+use super::pictures::{Pictures, keep};
 use super::source::Assignment;
 use super::watched::watched;
-use super::written::{file, save, written};
+use super::written::{file, written};
 use super::{Answer, Refusal, style};
 
 /// Find dimensions with which a mechanism passes through points or poses, or gives a function.
@@ -32,9 +33,9 @@ use super::{Answer, Refusal, style};
 pub struct DesignArguments {
     /// A design file, or a mechanism file.
     file: PathBuf,
-    /// Vary parameters, each in a range or from a tenth to ten times its value; new names are further unknowns, e.g. --vary
-    /// l1=0.1..2,l2,u=-1..1
-    #[arg(long, value_name = "NAME[=FROM..TO]", value_delimiter = ',')]
+    /// Vary parameters, each in a range, among listed values, equal to an expression of others, or from a tenth to ten times its
+    /// value; new names are further unknowns, e.g. --vary "l0,l1=0.1..2,l2=[0.5, 0.6],l3=l2,u=-1..1"
+    #[arg(long, value_name = "NAME[=VALUES],…")]
     vary: Vec<String>,
     /// The point that shall pass through the points, e.g. --path left+u,v
     #[arg(
@@ -64,12 +65,13 @@ pub struct DesignArguments {
     /// Require a quantity to be no greater than a value all the time
     #[arg(long, value_name = "QUANTITY=VALUE")]
     at_most: Vec<Assignment>,
-    /// Make a figure of a quantity over the motion small: max, min, range, mean or rms, e.g. --minimise "max(force:theta1)"
-    #[arg(long, value_name = "FIGURE", conflicts_with = "maximise")]
-    minimise: Option<String>,
+    /// Make a figure of a quantity over the motion small: max, min, range, mean or rms, e.g. --minimise "max(force:theta1)"; of two
+    /// such goals designs are found of which none is beaten in both
+    #[arg(long, value_name = "FIGURE")]
+    minimise: Vec<String>,
     /// Make a figure of a quantity over the motion great, e.g. --maximise "min(transmission)"
     #[arg(long, value_name = "FIGURE")]
-    maximise: Option<String>,
+    maximise: Vec<String>,
     /// Allow the points to be passed in any order
     #[arg(long)]
     any_order: bool,
@@ -91,9 +93,11 @@ pub struct DesignArguments {
     /// Write the mechanism file of the first design here
     #[arg(short, long, value_name = "FILE", value_parser = file(&["ron"]))]
     output: Option<PathBuf>,
-    /// Draw the first design with its targets and the curves of its points
-    #[arg(long, value_name = "FILE", value_parser = file(&["svg"]))]
-    svg: Option<PathBuf>,
+    #[command(flatten)]
+    pictures: Pictures,
+    /// Draw the designs in the plane of two goals
+    #[arg(long, value_name = "FILE", value_parser = file(&["svg", "png"]))]
+    front: Option<PathBuf>,
     /// Format of the answer; errors are always text on stderr
     #[arg(long, value_name = "FORMAT", default_value = "text")]
     format: Format,
@@ -138,7 +142,7 @@ impl DesignArguments {
                 let known = match part {
                     DesignPart::Whole => true,
                     DesignPart::Output(i) => i < of_file.outputs.len(),
-                    DesignPart::Goal => of_file.goal.is_some(),
+                    DesignPart::Goal(_) => self.minimise.is_empty() && self.maximise.is_empty(),
                     DesignPart::Weight(i) => i < of_file.weights.len(),
                     DesignPart::Tolerance(i) => i < of_file.tolerances.len(),
                     DesignPart::Vary(i) => i < of_file.vary.len(),
@@ -165,27 +169,43 @@ impl DesignArguments {
         if let (Some(path), Some(first)) = (&self.output, report.designs.first()) {
             written(first.file.clone(), Some(path))?;
         }
-        if let (Some(path), Some(first)) = (&self.svg, report.designs.first()) {
-            match watched(|watch| design.drawn(first, watch)) {
-                Some(drawn) => save(path, picture(drawn).as_bytes())?,
-                None => {
-                    return Err(Refusal::error(
-                        "the first design cannot be drawn: it does not assemble",
-                    ));
-                }
+        if let (true, Some(first)) = (self.pictures.are_wanted(), report.designs.first()) {
+            let drawn = watched(|watch| design.drawn(first, watch)).ok_or_else(|| {
+                Refusal::error("the first design cannot be drawn: it does not assemble")
+            })?;
+            if self.pictures.are_moving() && drawn.moving.is_empty() {
+                let why = "the first design cannot be drawn moving: it does not have one freedom";
+                return Err(Refusal::error(why));
             }
+            self.pictures.keep(
+                || sheet(&[panel(&drawn)], &self.pictures.settings()),
+                || panels_moving(&drawn),
+            )?;
+        }
+        if let Some(path) = &self.front {
+            let drawn = front(&report).ok_or_else(|| {
+                let said = Complaint::new("`--front` draws designs in the plane of two goals");
+                said.help("name two, by `--minimise` and `--maximise`")
+            })?;
+            let png = path
+                .extension()
+                .is_some_and(|of| of.eq_ignore_ascii_case("png"));
+            keep(Some(path), || match png {
+                true => drawn.png(),
+                false => drawn.svg().into_bytes(),
+            })?;
         }
         self.format.answer(&report)
     }
 
     /// Adds what the options ask for.
     fn add(&self, asked: &mut DesignDescription, mechanism: &Description) -> Result<(), Refusal> {
-        for given in &self.vary {
-            let (name, range) = match given.split_once('=') {
-                Some((name, range)) => (name.trim(), self::range("--vary", name, range)?),
+        for given in self.vary.iter().flat_map(|all| outside_brackets(all)) {
+            let (name, values) = match given.split_once('=') {
+                Some((name, values)) => (name.trim(), varied(name, values.trim())?),
                 None => (given.trim(), about(mechanism, given.trim())?),
             };
-            asked.vary.push(Named::new(name, range));
+            asked.vary.push(Named::new(name, values));
         }
         for Assignment { name, value } in &self.tolerance {
             let most = vec![entry("--tolerance", value)?];
@@ -207,11 +227,15 @@ impl DesignArguments {
             let bound = entry("--at-most", value)?;
             asked.at_most.push(Named::new(name.as_str(), bound));
         }
-        if let Some(figure) = self.minimise.as_ref().or(self.maximise.as_ref()) {
-            asked.goal = Some(DesignGoal {
-                figure: Spanned::new(figure.clone(), 0..0),
-                greatest: self.minimise.is_none(),
-            });
+        let small = self.minimise.iter().map(|figure| (figure, false));
+        let great = self.maximise.iter().map(|figure| (figure, true));
+        let goals = small.chain(great).map(|(figure, greatest)| DesignGoal {
+            figure: Spanned::new(figure.clone(), 0..0),
+            greatest,
+        });
+        let goals: Vec<DesignGoal> = goals.collect();
+        if !goals.is_empty() {
+            asked.goals = goals;
         }
         asked.any_order |= self.any_order;
         if let Some(path) = &self.points {
@@ -267,26 +291,6 @@ impl DesignArguments {
     }
 }
 
-fn picture(drawn: DrawnDesign) -> String {
-    let mut scene = Scene::of(&drawn.mechanism, &drawn.at);
-    let curves = drawn.curves.into_iter();
-    scene.paths = curves
-        .map(|(name, points)| Trace { name, points })
-        .collect();
-    let targets = drawn.targets.into_iter();
-    let mark = |(k, at): (usize, _)| Mark {
-        name: k.to_string(),
-        at,
-    };
-    scene.centres = targets.map(mark).collect();
-    let panel = Panel {
-        title: drawn.mechanism.name().to_owned(),
-        scene,
-        ghosts: Vec::new(),
-    };
-    sheet(&[panel], &DrawingSettings::default()).svg()
-}
-
 fn entry(option: &str, text: &str) -> Result<Entry, Refusal> {
     Entry::read(text).map_err(|error| {
         let title = format!("`{option}` has a value that is none, `{text}`: {error}");
@@ -308,8 +312,32 @@ fn range(option: &str, name: &str, text: &str) -> Result<[Entry; 2], Refusal> {
     }
 }
 
+/// The parts of a text between commas that are in no brackets.
+fn outside_brackets(text: &str) -> impl Iterator<Item = &str> {
+    let mut depth = 0;
+    text.split(move |c| {
+        depth += i32::from("([".contains(c)) - i32::from(")]".contains(c));
+        c == ',' && depth == 0
+    })
+}
+
+/// A range, listed values, or an expression of other numbers.
+fn varied(name: &str, text: &str) -> Result<Varied, Refusal> {
+    let list = text
+        .strip_prefix('[')
+        .and_then(|text| text.strip_suffix(']'));
+    Ok(match list {
+        Some(list) => {
+            let values = outside_brackets(list).map(|text| entry("--vary", text.trim()));
+            Varied::OneOf(values.collect::<Result<_, _>>()?)
+        }
+        None if !text.contains("..") => Varied::Equal(entry("--vary", text)?),
+        None => Varied::Range(range("--vary", name, text)?),
+    })
+}
+
 /// From a tenth to ten times the value of a parameter; all of a turn for an angle.
-fn about(mechanism: &Description, name: &str) -> Result<[Entry; 2], Refusal> {
+fn about(mechanism: &Description, name: &str) -> Result<Varied, Refusal> {
     let read = Mechanism::new(mechanism).ok();
     let parameter = read.as_ref().and_then(|mechanism| {
         let mut all = mechanism.parameters().iter();
@@ -326,5 +354,6 @@ fn about(mechanism: &Description, name: &str) -> Result<[Entry; 2], Refusal> {
         (_, value) if value < 0.0 => (10.0 * value, 0.1 * value),
         (_, value) => (0.1 * value, 10.0 * value),
     };
-    Ok([low, high].map(|value| Entry::number(value, 0..0)))
+    let ends = [low, high].map(|value| Entry::number(value, 0..0));
+    Ok(Varied::Range(ends))
 }

@@ -14,8 +14,8 @@ const SUBJECTS: [(&str, &[&str]); 4] = [
     (
         "Answer",
         &[
-            "format", "latex", "unicode", "ron", "rust", "svg", "png", "animate", "glb", "view",
-            "labels", "output",
+            "format", "latex", "unicode", "ron", "rust", "svg", "png", "animate", "glb", "front",
+            "view", "labels", "output",
         ],
     ),
     (

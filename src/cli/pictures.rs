@@ -54,6 +54,10 @@ impl Pictures {
         files.into_iter().any(Option::is_some)
     }
 
+    pub fn are_moving(&self) -> bool {
+        self.animate.is_some() || self.glb.is_some()
+    }
+
     pub fn settings(&self) -> DrawingSettings {
         DrawingSettings {
             view: self.view.unwrap_or_default(),

@@ -33,7 +33,7 @@ pub use axes::Graph;
 pub use axes::*;
 pub(crate) use closure_kind::FREE;
 pub use closure_kind::*;
-pub use design::{DesignDescription, DesignGoal, DesignPart};
+pub use design::{DesignDescription, DesignGoal, DesignPart, Varied};
 pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use files::{FileError, LoadError, load, load_text, load_text_within, text_from};

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::request::DesignRequest;
 use super::{Page, RefusedReply, answered, nothing, shown, words};
 use crate::ask::{Design, DesignError};
-use crate::description::{Description, DesignDescription, Entry, Named};
+use crate::description::{Description, DesignDescription, Entry, Named, Varied};
 use crate::mechanism::Mechanism;
 use crate::output::Report;
 use crate::output::complaint::Complaint;
@@ -38,20 +38,27 @@ impl Page {
             Some(text) => Description::read(text).map_err(|problems| wrong(text, &problems))?,
             None => (self.description.clone()).ok_or_else(|| nothing("no mechanism"))?,
         };
+        let more = format!("Design(version: 1, mechanism: \"\", {})", request.more);
+        let more = DesignDescription::read(&more).map_err(|problems| {
+            let first = problems.first().map(Complaint::of);
+            nothing(&first.map(words::in_a_line).unwrap_or_default())
+        })?;
         let number = |value: &f64| Entry::number(*value, 0..0);
         let place = |point: &Vec<f64>| {
             let target = point.iter().map(number).collect();
             vec![Named::new(request.path.as_str(), target)]
         };
-        let vary = request.vary.iter();
-        let vary =
-            vary.map(|(name, from, to)| Named::new(name.as_str(), [number(from), number(to)]));
+        let named = |name: &String| more.vary.iter().any(|of| of.name.value == *name);
+        let vary = request.vary.iter().filter(|(name, ..)| !named(name));
+        let vary = vary.map(|(name, from, to)| {
+            Named::new(name.as_str(), Varied::Range([number(from), number(to)]))
+        });
         let design = Design {
             asked: DesignDescription {
-                vary: vary.collect(),
+                vary: vary.chain(more.vary.clone()).collect(),
                 positions: request.points.iter().map(place).collect(),
-                any_order: request.any_order,
-                ..DesignDescription::default()
+                any_order: request.any_order || more.any_order,
+                ..more
             },
             mechanism: description,
             starts: request.starts,

@@ -166,6 +166,9 @@ pub struct DesignRequest {
     /// Places in ground, two or three coordinates each.
     pub points: Vec<Vec<f64>>,
     pub any_order: bool,
+    /// Further fields of a design file: tolerances, bounds, goals, and values of numbers that vary.
+    #[serde(default)]
+    pub more: String,
     pub starts: usize,
     /// Starts from the dimensions of the file.
     pub own: bool,

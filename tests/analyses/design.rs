@@ -4,7 +4,8 @@ use linkwork::algebra::SiUnit;
 use linkwork::analysis::design::{Defect, DesignReport, Moves};
 use linkwork::ask::{Design, DesignError};
 use linkwork::description::{Description, DesignDescription, DesignPart, DesignProblem};
-use linkwork::output::{Report, text};
+use linkwork::output::design::front;
+use linkwork::output::{Report, csv, text};
 use linkwork::solve::Watch;
 
 /// A four-bar with a point beside its coupler, driven by its crank or by its rocker.
@@ -767,6 +768,101 @@ fn targets_are_weighed_by_their_tolerances() {
             .sum();
         assert_eq!(beyond, missed, "{more}: {best:?}");
     }
+}
+
+/// Listed values of two links, the third free, beside the best of all their combinations, each fitted by itself.
+#[test]
+fn listed_lengths_are_those_of_the_best_combination() {
+    let mechanism = || four_bar([1.0, 0.5, 0.9, 0.8], [0.0, 0.0], false);
+    let positions = r#"positions: [{ "theta1": 0.6, "phi1": 1.6 }, { "theta1": 1.2, "phi1": 1.8 }, { "theta1": 1.8, "phi1": 2.1 },
+        { "theta1": 2.4, "phi1": 2.35 }]"#;
+    let fit = |l1: &str, l3: &str| {
+        let text = format!(r#"vary: {{ "l1": {l1}, "l2": (0.3, 3), "l3": {l3} }}, {positions}"#);
+        asked(mechanism(), &text).unwrap()
+    };
+    let (l1, l3) = ([0.2, 0.3, 0.42], [0.5, 0.7, 1.1]);
+    let listed = fit("[0.42, 0.2, 0.3]", r#"[0.5, "700 mm", 1.1]"#);
+    let counts = listed.listed.as_ref().unwrap();
+    assert_eq!((counts.combinations, counts.exhausted), (9.0, true));
+    let pairs = l1.iter().flat_map(|a| l3.iter().map(move |b| (a, b)));
+    let each = pairs.map(|(a, b)| fit(&format!("({a}, {a})"), &format!("({b}, {b})")));
+    let each: Vec<DesignReport> = each.collect();
+    let squares = |of: &DesignReport| of.designs[0].sum_of_squares;
+    let best = each.iter().min_by(|a, b| squares(a).total_cmp(&squares(b)));
+    let (best, found) = (&best.unwrap().designs[0], &listed.designs[0]);
+    assert!((best.sum_of_squares / found.sum_of_squares - 1.0).abs() < 1e-6);
+    assert_eq!(
+        (best.values[0], best.values[2]),
+        (found.values[0], found.values[2])
+    );
+    // free values come nearer
+    assert!(squares(&fit("(0.1, 2)", "(0.1, 3)")) < 0.5 * found.sum_of_squares);
+}
+
+/// Links that are equal: the file that is found says so, and a length that nothing uses is refused.
+#[test]
+fn lengths_are_equal_by_an_expression() {
+    let fit = |vary: &str| {
+        let mechanism = four_bar([1.0, 0.5, 0.9, 0.8], [0.0, 0.0], false);
+        let positions = r#"[{ "theta1": 1, "phi1": 1.5861694896029515 }, { "theta1": 1.5, "phi1": 1.7699819423947365 }]"#;
+        asked(
+            mechanism,
+            &format!("vary: {{ {vary} }}, positions: {positions}"),
+        )
+    };
+    let report = fit(r#""l1": (0.1, 2), "l2": (0.1, 3), "l3": "2*l1""#).unwrap();
+    // the angles are those of links of 0.4, 0.9 and 0.8 m
+    let near = |values: &[f64]| (values[0] - 0.4).abs().max((values[1] - 0.9).abs()) < 1e-9;
+    let best = report.designs.iter().find(|of| near(&of.values)).unwrap();
+    assert!(best.file.contains(r#""l3": "2*l1""#), "{}", best.file);
+    let said = fit(r#""l1": (0.1, 2), "l9": "l1""#)
+        .unwrap_err()
+        .to_string();
+    assert_eq!(said, "nothing uses `l9`");
+    let said = fit(r#""l1": (0.1, 2), "l3": "l9""#)
+        .unwrap_err()
+        .to_string();
+    assert!(said.starts_with("`l9` has no value"), "{said}");
+}
+
+/// Squares of the distances of a point (a, b) from (1, 0) and (−1, 0): none of both can be less without the other's loss where the point
+/// lies between, so that the two distances add up to 2 (Schaffer 1985).
+#[test]
+fn of_two_goals_none_is_beaten_in_both() {
+    let arm = r#"Mechanism(version: 1, name: "arm", convention: Modified, parameters: { "a": 0.3, "b": 0.4 },
+        joints: { "turn": Actuated(home: 0) }, chains: { "arm": Chain(rows: [(theta: "turn")], tip: [Tx("a"), Ty("b")]) }, closures: {})"#;
+    let fit = |most: usize| {
+        let text = r#"Design(version: 1, mechanism: "", vary: { "a": (-3, 3), "b": (-3, 3) }, positions: [{ "turn": 0 }],
+            minimise: "max((a/(1 m) - 1)^2 + (b/(1 m))^2)", maximise: "min(-(a/(1 m) + 1)^2 - (b/(1 m))^2)")"#;
+        let design = Design {
+            mechanism: Description::read(arm).unwrap(),
+            asked: DesignDescription::read(text).unwrap(),
+            most,
+            ..Design::default()
+        };
+        design.report(&Watch::none()).unwrap()
+    };
+    let report = fit(5);
+    assert_eq!(report.designs.len(), 5, "{:?}", report.designs);
+    let goals = |i: usize| {
+        let of = &report.designs[i];
+        (of.goal.unwrap(), -of.second_goal.unwrap())
+    };
+    // the second goes from 4 to 0 by equal steps
+    for i in 0..5 {
+        let (first, second) = goals(i);
+        assert!((second - (4.0 - i as f64)).abs() < 1e-6, "{second}");
+        assert!(
+            (first.max(0.0).sqrt() + second.max(0.0).sqrt() - 2.0).abs() < 1e-3,
+            "{first}"
+        );
+    }
+    let csv = csv::render(report.rows().unwrap());
+    assert_eq!(csv.lines().count(), 6, "{csv}");
+    assert!(front(&report).unwrap().svg().contains("</svg>"));
+    let drawn: Vec<_> = fit(5).designs.into_iter().map(|of| of.values).collect();
+    let first: Vec<_> = report.designs.into_iter().map(|of| of.values).collect();
+    assert_eq!(drawn, first);
 }
 
 /// A rocker that turns forth by 103° and back by as much while the crank turns by 2 rad: the equations of Freudenstein have no finite

@@ -144,7 +144,7 @@ fn a_four_bar_is_calibrated_from_its_angles_to_ten_digits() {
         for (found, known) in found.point.numbers.iter().zip(ESTIMATE) {
             assert!((found - known).abs() < 1e-9, "{found} {known}");
         }
-        assert_eq!(bundle.model(&found.point).unwrap().open().len(), 0);
+        assert_eq!(bundle.model(&found.point).unwrap().open([]).len(), 0);
     }
 }
 
@@ -156,7 +156,7 @@ fn angles_alone_do_not_determine_the_scale() {
     let found = LevenbergMarquardt::default().solve(&bundle, start);
     assert!(found.converged);
     let model = bundle.model(&found.point).unwrap();
-    assert_eq!((model.open().len(), model.conditions()), (1, 0));
+    assert_eq!((model.open([]).len(), model.conditions()), (1, 0));
     // the lengths of least change have the ratios of those with the ground known
     let numbers = found.point.numbers;
     for (length, known) in numbers[1..4].iter().zip(ESTIMATE) {

@@ -162,6 +162,21 @@ const tests = {
       document.getElementById("design-of").value = "four-bar";
       document.getElementById("design-of").dispatchEvent(new Event("change"));
     });
+    const more = (text) => page.$eval("#design-more", (area, text) => {
+      area.value = text;
+      area.dispatchEvent(new Event("change"));
+    }, text);
+    await more('at_least: { "transmision": "40 deg" }');
+    await page.waitForFunction(() => /transmision/.test(document.getElementById("design-said").textContent), { timeout: 60_000 });
+    await more('vary: { "l1": (0.5, 0.6) }, at_least: { "l2/l1": 1 }');
+    await searched(page);
+    const kept = (await found(page)).designs.filter(({ verdict }) => verdict.startsWith("good"));
+    check(kept.length > 0, "no design keeps the bounds");
+    for (const { file } of kept) {
+      const [l1, l2] = ["l1", "l2"].map((name) => Number(new RegExp(`"${name}": ([0-9.e-]+)`).exec(file)[1]));
+      check(l1 >= 0.5 && l1 <= 0.6 && l2 >= l1, `links of ${l1} and ${l2} m`);
+    }
+    await more("");
   },
 };
 

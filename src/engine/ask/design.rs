@@ -4,14 +4,15 @@ mod drawn;
 mod figure;
 mod judge;
 mod read;
+mod targets;
 mod weights;
 
 use std::sync::Arc;
 
-use crate::analysis::design::{self, DesignReport, FoundEnd, PinnedFourBar, Task};
+use crate::analysis::design::{self, DesignReport, FoundEnd, PinnedFourBar, SearchedEnds, Task};
 use crate::description::{
-    Description, DesignDescription, DesignError, DesignPart, DesignProblem, Entry, MissedTarget,
-    Named,
+    Description, DesignDescription, DesignError, DesignGoal, DesignPart, DesignProblem, Entry,
+    MissedTarget, Named,
 };
 use crate::mechanism::Mechanism;
 use crate::number::sorting::sort_by;
@@ -81,7 +82,7 @@ impl Design {
     /// The answer where the positions from one on, those of a box, are equations.
     fn answer(&self, boxed: usize, watch: &Watch) -> Result<DesignReport, DesignError> {
         let made = |known: Option<&Mechanism>| {
-            let description = self.extended(known);
+            let description = self.tied(self.extended(known))?;
             let mechanism = Mechanism::new(&description).map_err(DesignError::Mechanism)?;
             let mechanism = Arc::new(mechanism);
             let read = Read::new(&self.asked, boxed, &mechanism)?;
@@ -95,13 +96,18 @@ impl Design {
             .and_then(|(_, plain, _)| made(Some(plain)).ok());
         let (description, mechanism, read) = known.map_or(plain, Ok)?;
         let mut judge = Judge::new(&self.asked, &read, (&description, &mechanism), watch)?;
-        let again = match (&self.asked.goal, judge.improves()) {
-            (Some(_), _) => COMPARED,
-            (None, true) => IMPROVED,
-            (None, false) => 3,
+        let again = match (&self.asked.goals[..], judge.improves()) {
+            ([_, ..], _) => COMPARED,
+            ([], true) => IMPROVED,
+            ([], false) => 3,
         };
         let task = self.task(&mechanism, &read, again);
-        let exact = match self.approximate {
+        let lists = read
+            .varied
+            .iter()
+            .filter(|of| !of.listed.is_empty())
+            .count();
+        let exact = match self.approximate || lists > 0 {
             true => Ok(None),
             false => task.exact(self.solutions, watch),
         };
@@ -115,21 +121,33 @@ impl Design {
                 let good = |found: &FoundEnd| {
                     let targets = read.missed(&task.bundle, found).unwrap_or_default();
                     !targets.iter().any(design::Deviation::is_missed)
-                        && judge.estimate(found).is_some()
+                        && judge.estimates(found).is_some()
                 };
                 (None, task.search(&good, watch))
             }
         };
-        let improved = match exact.is_none() && judge.improves() {
-            true => {
-                let (estimate, cost) = (
-                    |of: &FoundEnd| judge.estimate(of),
-                    |of: &FoundEnd| judge.cost(of),
-                );
-                task.improve(&mut searched, IMPROVED, (&estimate, &cost), watch)
+        let improve = |task: &Task, searched: &mut SearchedEnds| {
+            let front = |of: &FoundEnd| judge.estimates(of)?.try_into().ok();
+            let estimate = |of: &FoundEnd| judge.estimates(of)?.first().copied();
+            let cost = |of: &FoundEnd| judge.costs(of)?.first().copied();
+            match exact.is_none() && judge.improves() {
+                true if self.asked.goals.len() > 1 => {
+                    task.front(searched, (self.most, IMPROVED), &front, watch)
+                }
+                true => task.improve(searched, IMPROVED, (&estimate, &cost), watch),
+                false => 0,
             }
-            false => 0,
         };
+        let mut improved = improve(&task, &mut searched);
+        let listed = (lists > 0).then(|| {
+            let task = Task {
+                listed: read.varied.iter().map(|of| of.listed.clone()).collect(),
+                ..task.clone()
+            };
+            let listed = task.take_listed(&mut searched, watch);
+            improved = improve(&task, &mut searched);
+            listed
+        });
         searched.interrupted |= watch.is_stopped();
         if exact.is_none() && searched.found.is_empty() && !searched.interrupted {
             return Err(self.nothing_assembles(&mechanism, read, searched.not_assembled, watch));
@@ -174,16 +192,24 @@ impl Design {
         let mut distinct: Vec<usize> = searched.found.iter().map(|of| of.class).collect();
         distinct.sort_unstable();
         distinct.dedup();
-        let sign = match &self.asked.goal {
-            Some(goal) if goal.greatest => -1.0,
-            _ => 1.0,
+        let rank = |of: &design::Design, i: usize| {
+            let goal = self.asked.goals.get(i).map(DesignGoal::sign);
+            let value = [of.goal, of.second_goal][i];
+            goal.zip(value).map_or(f64::INFINITY, |(sign, x)| sign * x)
         };
-        let rank = |of: &design::Design| sign * of.goal.unwrap_or(sign * f64::INFINITY);
         sort_by(&mut classes, |(_, a), (_, b)| {
             let defects = |of: &design::Design| !of.defects.is_empty();
-            let goals = rank(a).total_cmp(&rank(b));
-            defects(a).cmp(&defects(b)).then(goals)
+            let goals = [0, 1].map(|i| rank(a, i).total_cmp(&rank(b, i)));
+            defects(a).cmp(&defects(b)).then(goals[0]).then(goals[1])
         });
+        if let (2, None) = (self.asked.goals.len(), &exact) {
+            let mut least = f64::INFINITY;
+            classes.retain(|(_, of)| {
+                let beaten = rank(of, 1) >= least;
+                least = least.min(rank(of, 1));
+                !beaten
+            });
+        }
         classes.truncate(most);
         let points: Vec<&Bundled> = classes.iter().map(|(of, _)| &of.at).collect();
         let cognates = task.cognates(&points);
@@ -193,9 +219,19 @@ impl Design {
         }
         let best = searched.found.first();
         let best = best.and_then(|found| task.bundle.model(&found.at));
-        let (undetermined, repeated) = best.map_or((0, 0), |of| (of.open().len(), of.repeated()));
+        let still = (0..read.varied.len()).filter(|i| !read.varied[*i].listed.is_empty());
+        let (undetermined, repeated) =
+            best.map_or((0, 0), |of| (of.open(still).len(), of.repeated()));
         let surplus = task.bundle.surplus(task.positions).unwrap_or(0) - repeated as i64;
+        let surplus = surplus + lists as i64;
         let parameters = mechanism.parameters();
+        let units = judge.units_of_goals().zip(&self.asked.goals);
+        let mut goals = units.map(|(unit, goal)| design::Goal {
+            figure: goal.figure.value.clone(),
+            unit,
+            greatest: goal.greatest,
+            improved,
+        });
         Ok(DesignReport {
             mechanism: mechanism.name().to_owned(),
             varied: (read.varied.iter())
@@ -214,15 +250,9 @@ impl Design {
             straight_moves: !judge.one_freedom,
             more: distinct.len() - designs.len(),
             designs,
-            goal: judge
-                .unit_of_goal()
-                .zip(self.asked.goal.as_ref())
-                .map(|(unit, goal)| design::Goal {
-                    figure: goal.figure.value.clone(),
-                    unit,
-                    greatest: goal.greatest,
-                    improved,
-                }),
+            goal: goals.next(),
+            second_goal: goals.next(),
+            listed,
             exact,
             nearest,
             not_all,
@@ -253,6 +283,7 @@ impl Design {
             }),
             bundle,
             ranges: read.ranges(),
+            listed: vec![Vec::new(); read.varied.len()],
             angles: read.varied.iter().map(|of| of.angle).collect(),
             size: read.size,
             positions: self.asked.positions.len(),
@@ -315,7 +346,8 @@ impl Design {
             sensitivities: model.sensitivities(),
             defects: verdict.defects,
             driver: verdict.moves,
-            goal: verdict.goal,
+            goal: verdict.goals.first().copied().flatten(),
+            second_goal: verdict.goals.get(1).copied().flatten(),
             reached: found.reached,
             cognates: Vec::new(),
             file: judge.file(found),

@@ -10,6 +10,7 @@
 //! linear in the number of configurations. Columns of B come from the one kinematics over [`Gradient`]s.
 
 mod along;
+mod arrow;
 mod closer;
 mod copies;
 mod elimination;
@@ -21,11 +22,12 @@ mod target;
 mod written;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 pub use along::PathForm;
+pub use arrow::Arrow;
 pub use closer::Closer;
 pub use copies::Copies;
-use elimination::{Blocks, Eliminated};
 use shared::Reduced;
 pub(crate) use sides::SideRows;
 pub use target::{Target, TargetError};
@@ -56,7 +58,7 @@ pub struct Bundle<'m> {
     cut: f64,
     /// Ranges of the shared numbers, where every configuration is kept closed.
     ranges: Option<Vec<(f64, f64)>>,
-    written: Option<written::Written>,
+    written: Option<Arc<written::Written>>,
 }
 
 /// A point of a bundle: its shared numbers, and a configuration for each of its places.
@@ -66,15 +68,6 @@ pub struct Bundled {
     pub numbers: Vec<f64>,
     /// The configurations.
     pub configurations: Vec<Configuration<f64>>,
-}
-
-/// A bundle linearised at a point.
-#[derive(Clone, Debug)]
-pub struct Arrow {
-    blocks: Vec<Blocks>,
-    rank: Option<usize>,
-    /// The rows by which shared numbers stay near values.
-    near: Reduced,
 }
 
 /// The equations of one configuration with their evaluation over some directions of differentiation.
@@ -388,52 +381,5 @@ impl Bundle<'_> {
     pub fn departures(&self, numbers: &[f64], from: &[f64]) -> Vec<f64> {
         let pairs = numbers.iter().zip(from).zip(&self.sizes);
         pairs.map(|((x, from), size)| (x - from) / size).collect()
-    }
-}
-
-impl Arrow {
-    /// Every configuration eliminated, what its targets leave open damped by λ, and what is left for the shared numbers.
-    fn eliminated(&self, damping: f64) -> (Vec<Eliminated>, Reduced) {
-        let mut reduced = self.near.clone();
-        let eliminated = self.blocks.iter().map(|block| {
-            let (eliminated, left) = block.eliminated(self.rank, damping);
-            left.conditions
-                .iter()
-                .for_each(|row| reduced.condition(row));
-            left.targets.iter().for_each(|row| reduced.square(row));
-            eliminated
-        });
-        (eliminated.collect(), reduced)
-    }
-
-    fn reduced(&self) -> Reduced {
-        self.eliminated(0.0).1
-    }
-
-    /// Number of closures that repeat others of the same configuration, whatever the shared numbers are.
-    pub fn repeated(&self) -> usize {
-        self.blocks.iter().map(Blocks::repeated).sum()
-    }
-
-    /// Number of independent conditions of the closures on the shared numbers.
-    pub fn conditions(&self) -> usize {
-        self.reduced().conditions()
-    }
-
-    /// Directions of the shared numbers, in their units, that neither closures nor targets determine.
-    pub fn open(&self) -> Vec<Vec<f64>> {
-        self.reduced().open()
-    }
-
-    /// For each shared number the root of the sum of squares of the changes of all weighted targets, for a change of it by its
-    /// unit with every configuration closed again.
-    pub fn sensitivities(&self) -> Vec<f64> {
-        self.reduced().sensitivities()
-    }
-
-    /// The conditions that the closures leave for a step of the shared numbers in their units, one row each: coefficients, and
-    /// what is left now.
-    pub fn rows(&self) -> Vec<Vec<f64>> {
-        self.reduced().rows()
     }
 }

@@ -12,9 +12,9 @@ pub struct DesignDescription {
     pub name: Spanned<String>,
     /// The mechanism file, from the folder of the design file.
     pub mechanism: Spanned<String>,
-    /// The parameters that vary, with their ranges. A name that the mechanism file does not have is a further unknown, for
-    /// expressions of the positions.
-    pub vary: Vec<Named<[Entry; 2]>>,
+    /// The parameters that vary, with the values they may have. A name that the mechanism file does not have is a further unknown,
+    /// for expressions of the positions.
+    pub vary: Vec<Named<Varied>>,
     /// The positions: values of quantities, or two or three coordinates of a point in ground.
     pub positions: Vec<Vec<Named<Vec<Entry>>>>,
     /// Weights of targets by their names in the positions, one for all positions or one for each.
@@ -31,10 +31,32 @@ pub struct DesignDescription {
     pub at_most: Vec<Named<Entry>>,
     /// Outputs by which quantities such as the condition number are taken: joints, coordinates of points, frames.
     pub outputs: Vec<Spanned<String>>,
-    /// A figure that shall be as small or as great as possible.
-    pub goal: Option<DesignGoal>,
+    /// Figures that shall be as small or as great as possible: one, or two of which none can be had without the other's loss.
+    pub goals: Vec<DesignGoal>,
     /// True if positions without given inputs may be passed in any order.
     pub any_order: bool,
+}
+
+/// The values that a number may have.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Varied {
+    /// All of a range.
+    Range([Entry; 2]),
+    /// Those of a list.
+    OneOf(Vec<Entry>),
+    /// That of an expression of other numbers.
+    Equal(Entry),
+}
+
+impl Varied {
+    /// The ends of the range, the values of the list, or the expression.
+    pub fn entries(&self) -> &[Entry] {
+        match self {
+            Self::Range(ends) => ends,
+            Self::OneOf(values) => values,
+            Self::Equal(value) => std::slice::from_ref(value),
+        }
+    }
 }
 
 /// A figure of a quantity over the motion, such as `max(force:theta1)`, that shall be as small or as great as possible.
@@ -44,6 +66,13 @@ pub struct DesignGoal {
     pub figure: Spanned<String>,
     /// True if it shall be great.
     pub greatest: bool,
+}
+
+impl DesignGoal {
+    /// −1 for a figure that shall be great, else 1.
+    pub fn sign(&self) -> f64 {
+        if self.greatest { -1.0 } else { 1.0 }
+    }
 }
 
 /// Part of a design file.
@@ -68,7 +97,7 @@ pub enum DesignPart {
     /// An output.
     Output(usize),
     /// What shall be small or great.
-    Goal,
+    Goal(usize),
 }
 
 impl DesignDescription {
@@ -82,8 +111,8 @@ impl DesignDescription {
         match part {
             DesignPart::Whole => 0..1,
             DesignPart::Output(i) => self.outputs[i].span.clone(),
-            DesignPart::Goal => self.goal.as_ref().map_or(0..1, |of| of.figure.span.clone()),
-            DesignPart::Vary(i) => of(&self.vary[i].name, &self.vary[i].value),
+            DesignPart::Goal(i) => self.goals[i].figure.span.clone(),
+            DesignPart::Vary(i) => of(&self.vary[i].name, self.vary[i].value.entries()),
             DesignPart::Position(k, i) => match self.positions.get(k) {
                 Some(position) => of(&position[i].name, &position[i].value),
                 // of the box, whose last side comes first

@@ -42,7 +42,8 @@ nouns! {
     Output = "an output", "a number or an expression";
     Mass = "a mass", "`(mass: …)`";
     Load = "a load", "`Spring(…)`, `Force(…)` or `Friction(…)`";
-    Varied = "a number that varies", "a range `(least, greatest)`";
+    Varied = "a number that varies", "a range `(least, greatest)`, a list of values or an expression";
+    Input = "an input", "a range `(least, greatest)`";
     Target = "a target", "a value or the coordinates of a point";
 }
 
@@ -145,7 +146,6 @@ impl Expected {
     pub(super) fn part(self) -> Self {
         match self {
             Self::MapOf(Noun::Output) => Self::Quantity,
-            Self::MapOf(Noun::Varied) => Self::RANGE,
             Self::MapOf(Noun::PlatformFrame) => Self::TRANSFORM,
             Self::BODIES => Self::BODY,
             Self::POINTS => Self::FRAME,

@@ -58,6 +58,8 @@ export class Designer {
     element("option", { value: "four-bar" }, "The best four-bar"), element("option", { value: "own" }, "This mechanism"));
   private readonly point = element("input", { type: "text", id: "design-point", "aria-label": "Point that passes through the places", placeholder: "point, e.g. coupler+u,v" });
   private readonly numbers = element("div", { id: "design-vary", role: "group", "aria-label": "Numbers that vary" });
+  private readonly more = element("textarea", { id: "design-more", rows: "3", "aria-label": "Tolerances, bounds and goals, as a design file has them",
+    placeholder: 'more, as in a design file: at_least: { "transmission": "40 deg" }, tolerances: { "coupler+u,v": "1 mm" }, vary: { "l1": (0.1, 0.3) }, maximise: "min(transmission)"' });
   private readonly anyOrder = element("input", { type: "checkbox", id: "any-order" });
 
   constructor(private readonly model: Model, module: WebAssembly.Module, private readonly stage: Stage, private readonly picture: Picture) {
@@ -67,6 +69,7 @@ export class Designer {
       this.list,
       element("p", {}, this.which, " ", this.point),
       this.numbers,
+      this.more,
       element("p", {}, element("label", {}, this.anyOrder, " in any order")),
       element("p", { id: "design-said", role: "status" }),
       element("ul", { id: "designs" }),
@@ -75,7 +78,7 @@ export class Designer {
     this.list.addEventListener("input", () => this.set(read(this.list.value), false));
     this.which.addEventListener("change", () => this.chosen());
     this.point.addEventListener("change", () => this.asked());
-    this.anyOrder.addEventListener("change", () => this.later());
+    for (const field of [this.more, this.anyOrder]) field.addEventListener("change", () => this.later());
     this.part.addEventListener("toggle", () => (this.part.open ? this.chosen() : this.wait(false)));
     model.onLoaded(() => {
       const { name } = model.mechanism!;
@@ -188,6 +191,8 @@ export class Designer {
       do: "design", vary: this.ranges(), path: this.point.value.trim(), any_order: this.anyOrder.checked, starts, own: this.from !== null, exact,
       text: this.from?.file ?? (this.own ? null : FOUR_BAR),
       points: this.points.map((at) => (this.flat ? at.slice(0, 2) : at)),
+      // what follows a place that is dragged comes near at once, and keeps bounds when it rests
+      more: starts > 1 ? this.more.value : "",
     };
   }
 

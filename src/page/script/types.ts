@@ -276,7 +276,7 @@ export type Request =
   | { do: "ask"; what: "solve" | "assemblies" | "mobility"; as_filed?: boolean }
   | { do: "sweep"; input?: [string, number, number]; steps: number; follow?: boolean; duration?: number; points?: string[]; report?: string[] }
   | { do: "let_go"; duration: number; rows: number; restitution: number | null; through: boolean; points: string[] }
-  | { do: "design"; text: string | null; vary: [string, number, number][]; path: string; points: number[][]; any_order: boolean; starts: number; own: boolean; exact: boolean };
+  | { do: "design"; text: string | null; vary: [string, number, number][]; path: string; points: number[][]; any_order: boolean; more: string; starts: number; own: boolean; exact: boolean };
 
 /** Why there is no answer. */
 export class Refused extends Error {

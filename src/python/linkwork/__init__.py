@@ -425,15 +425,15 @@ class Mechanism:
 
     def design(
         self,
-        vary: Mapping[str, tuple[Value, Value]],
+        vary: Mapping[str, tuple[Value, Value] | list[Value] | Value],
         positions: Sequence[Mapping[str, Value | Sequence[Value]]] = (),
         *,
         contains: Mapping[str, tuple[Value, Value]] | None = None,
         motion: Mapping[str, tuple[Value, Value]] | None = None,
         at_least: Values | None = None,
         at_most: Values | None = None,
-        minimise: str | None = None,
-        maximise: str | None = None,
+        minimise: Names | None = None,
+        maximise: Names | None = None,
         outputs: Names | None = None,
         any_order: bool = False,
         seed: int = 1,
@@ -445,22 +445,22 @@ class Mechanism:
     ) -> Report:
         """Dimensions with which it does what it shall: ``.designs``, best first, each with the text of its ``file``.
 
-        ``vary`` gives ranges to parameters and to further unknowns, and ``positions`` values of quantities or
-        coordinates of points, ``{"theta1": 0.5, "coupler": (0.3, 0.2)}``; ``contains`` spans a box of positions.
+        ``vary`` gives ranges ``(least, greatest)``, listed values ``[0.1, 0.12]`` or expressions of others to
+        parameters and to further unknowns, and ``positions`` values of quantities or coordinates of points, ``{"theta1": 0.5, "coupler": (0.3, 0.2)}``; ``contains`` spans a box of positions.
         ``motion``, ``at_least`` and ``at_most`` bound the motion, ``minimise`` and ``maximise`` improve a figure of it
-        such as ``"max(force:theta1)"``. Where there are as many targets as unknowns all designs are sought, otherwise
+        such as ``"max(force:theta1)"``; of two such goals ``most`` designs are found of which none is beaten in both. Where there are as many targets as unknowns all designs are sought, otherwise
         (or if ``approximate``) from random ``starts``.
         """
 
         def named(of: Mapping[str, Any]) -> str:
             return parts.written({name: tuple(x) if isinstance(x, list) else x for name, x in of.items()})
 
-        fields = {"vary": named(_given.mapping("vary", vary))}
+        fields = {"vary": parts.written(dict(_given.mapping("vary", vary)))}
         fields["positions"] = "[" + ", ".join(named(_given.mapping("positions", of)) for of in positions) + "]"
         ranges = {"contains": contains, "motion": motion, "at_least": at_least, "at_most": at_most}
         fields.update({name: named(_given.mapping(name, of)) for name, of in ranges.items() if of is not None})
         goals = {"minimise": minimise, "maximise": maximise}
-        fields.update({name: parts.written(_given.text(name, of)) for name, of in goals.items() if of is not None})
+        fields.update({n: parts.written(list(_given.names(n, of))) for n, of in goals.items() if of is not None})
         if outputs is not None:
             fields["outputs"] = parts.written(list(_given.names("outputs", outputs)))
         if _given.flag("any_order", any_order):

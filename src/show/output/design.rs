@@ -1,31 +1,50 @@
 //! Designs in words.
 
+mod defects;
+mod picture;
+mod searched;
+
+pub use picture::{front, panel, panels_moving};
+
 use super::document::{Cell, Document, Table, TableOf};
-use super::quantity::{clause, form, quantity};
+use super::quantity::{form, quantity};
 use super::report::{Report, Rows};
-use crate::analysis::design::{
-    Cognate, Defect, Design, DesignReport, Deviation, Exact, Moves, NotAll,
-};
+use crate::analysis::design::{Cognate, Design, DesignReport, Deviation, Exact, Goal, Moves};
 use crate::description::{count, quoted};
+use defects::{defects, missed};
 
 /// A sum of squares below this part of what was asked is met exactly.
 const MET: f64 = 1e-18;
 
-/// The designs by number with the values that vary.
+/// Designs in a table at most.
+const SHOWN: usize = 10;
+
+/// So many of the designs by number with the values that vary.
 fn columns<C: Into<Cell>>(
     report: &DesignReport,
+    shown: usize,
     value: impl Fn(&Design, usize) -> C,
 ) -> TableOf<(usize, &Design)> {
-    Table::of((1..).zip(&report.designs))
+    Table::of((1..).zip(report.designs.iter().take(shown)))
         .numbers("design", |(i, _)| i)
         .each(report.varied.iter().map(|of| &of.name), |(_, of), k| {
             value(of, k)
         })
 }
 
-/// The name of the goal, if there is one.
-fn figure(report: &DesignReport) -> Option<&String> {
-    report.goal.as_ref().map(|goal| &goal.figure)
+/// The goals.
+fn goals(report: &DesignReport) -> impl Iterator<Item = &Goal> + Clone {
+    report.goal.iter().chain(&report.second_goal)
+}
+
+/// The names of the goals.
+fn figures(report: &DesignReport) -> impl Iterator<Item = &String> {
+    goals(report).map(|goal| &goal.figure)
+}
+
+/// The values of a design for the goals.
+fn worth(of: &Design) -> [Option<f64>; 2] {
+    [of.goal, of.second_goal]
 }
 
 /// The defects of a design, or how it moves without.
@@ -54,12 +73,6 @@ pub fn largest(design: &Design) -> String {
         true => "0".into(),
         false => words.join(" and "),
     }
-}
-
-/// `0.0123 m (`point.x` in position 4)`
-fn missed(of: &Deviation) -> String {
-    let by = quantity(of.deviation.abs(), of.unit);
-    format!("{by} (`{}` in position {})", of.quantity, of.position)
 }
 
 /// What comes nearest where no exact solution will do.
@@ -95,13 +108,16 @@ fn outside(report: &DesignReport, exact: &Exact) -> String {
 
 /// The value of the goal of a design, in words.
 fn goal_of(report: &DesignReport, design: &Design) -> String {
-    match (&report.goal, design.goal) {
-        (Some(goal), Some(value)) => {
-            format!(", with {} = {}", goal.figure, quantity(value, goal.unit))
-        }
-        (Some(goal), None) => format!("; {} is not determined everywhere", goal.figure),
-        (None, _) => String::new(),
+    if report.second_goal.is_some() && report.exact.is_none() {
+        return ", and none is beaten by another one in both goals".into();
     }
+    let said = goals(report)
+        .zip(worth(design))
+        .map(|(goal, value)| match value {
+            Some(value) => format!(", with {} = {}", goal.figure, quantity(value, goal.unit)),
+            None => format!("; {} is not determined everywhere", goal.figure),
+        });
+    said.collect()
 }
 
 fn answer(report: &DesignReport) -> String {
@@ -181,93 +197,6 @@ fn squares(sum: f64) -> String {
     }
 }
 
-/// The completeness of an exact synthesis, in sentences.
-fn all_of(exact: &Exact) -> Vec<String> {
-    if let Some(triples) = &exact.triples {
-        let lost = match exact.lost {
-            0 => String::new(),
-            lost => format!(", {} lost on every way", count(lost, "path")),
-        };
-        return vec![
-            format!(
-                "For generic points {} of cognates, {} with either link driving (Wampler, Morgan and Sommese 1992): found by \
-                 monodromy, and stored with the program.",
-                count(triples.generic, "triple"),
-                count(exact.generic, "four-bar"),
-            ),
-            format!(
-                "For these points {} of {} arrived, {} went to infinity{lost}: {} different, {} real; of their {} {} outside the \
-                 ranges.",
-                exact.arrived,
-                count(triples.generic, "path"),
-                exact.at_infinity,
-                count(triples.different, "triple"),
-                triples.real,
-                count(exact.real, "four-bar"),
-                exact.outside,
-            ),
-        ];
-    }
-    if exact.quiet == 0 {
-        return vec![format!(
-            "Stopped while all solutions for generic targets were sought, of which {} had been found; none was followed to these \
-             targets.",
-            exact.classes,
-        )];
-    }
-    let linkages = match exact.classes == exact.generic {
-        true => String::new(),
-        false => format!(
-            " ({} with those that differ by signs of lengths, senses of axes or an exchange of links only)",
-            count(exact.generic, "complex solution"),
-        ),
-    };
-    let lost = match exact.lost {
-        0 => String::new(),
-        lost => format!(
-            ", {} to a singular solution or lost on {} ways",
-            count(lost, "path"),
-            Exact::WAYS
-        ),
-    };
-    vec![
-        format!(
-            "For generic targets {}{linkages}: found by monodromy, and {} through other targets, on which {} lost, brought \
-             none beside them. A random way finds more with probability ½ at least if any that are connected with these \
-             are missing; no bound is known.",
-            count(exact.classes, "linkage"),
-            count(exact.quiet, "random way"),
-            match exact.lost_quietly {
-                0 => "no path was".to_owned(),
-                1 => "1 path was".to_owned(),
-                lost => format!("{lost} paths were"),
-            },
-        ),
-        format!(
-            "For these targets {} arrived, {} went to infinity{lost}: {} different, {} real, {} of these outside the ranges.",
-            count(exact.arrived, "path"),
-            exact.at_infinity,
-            count(exact.different, "linkage"),
-            exact.real,
-            exact.outside,
-        ),
-    ]
-}
-
-/// Why random starts were searched although there are as many targets as unknowns.
-fn not_all(why: NotAll) -> String {
-    match why {
-        NotAll::More { than } => format!(
-            "There are more than {than} linkages for generic targets: not all were sought, but least squares were made small."
-        ),
-        NotAll::Lost { found } => format!(
-            "The search for all solutions lost paths on every way through other targets, with {} found for generic targets: least \
-             squares were made small instead.",
-            count(found, "linkage")
-        ),
-    }
-}
-
 /// The cognates of a design by their numbers in the list.
 fn listed(of: &Design) -> String {
     let numbers = of.cognates.iter().map(|of| match of.design {
@@ -286,82 +215,6 @@ fn cognate(of: &Cognate) -> String {
     )
 }
 
-/// What a design does not do, in words.
-fn defects(all: &[Defect]) -> String {
-    let words: Vec<String> = all.iter().map(defect).collect();
-    words.join("; ")
-}
-
-fn defect(defect: &Defect) -> String {
-    match defect {
-        Defect::Circuit { positions } => {
-            let are = are(positions);
-            format!("circuit defect: {are} on another circuit than the first")
-        }
-        Defect::Branch { driver, positions } => {
-            let are = are(positions);
-            format!("branch defect: {are} beyond a dead position of `{driver}`")
-        }
-        Defect::Order { order } => {
-            let order: Vec<String> = order.iter().map(usize::to_string).collect();
-            format!(
-                "order defect: the positions are passed in the order {}",
-                order.join(" ")
-            )
-        }
-        Defect::Limit { joints, positions } => {
-            let (are, joints) = (are(positions), quoted(joints));
-            format!("{are} not reached within the limits of {joints}")
-        }
-        Defect::Assembly { positions } => {
-            let are = are(positions);
-            format!(
-                "{are} in another assembly than the one before: driven joints that move straight there end in a different one"
-            )
-        }
-        Defect::Crossing => {
-            "branches cross on the way: it can change into another motion there".into()
-        }
-        Defect::Motion { input, unit, at } => match at {
-            Some(at) => format!("`{input}` stops at {}", quantity(*at, *unit)),
-            None => format!("`{input}` does not move through its range"),
-        },
-        Defect::Condition {
-            quantity: name,
-            unit,
-            bound,
-            worst,
-            at_least,
-        } => {
-            let bound = quantity(*bound, *unit);
-            let sign = if *at_least { "at least" } else { "at most" };
-            match worst {
-                Some(worst) => format!(
-                    "`{name}` shall be {sign} {bound}, and is {} at worst",
-                    quantity(*worst, *unit)
-                ),
-                None => format!("`{name}` shall be {sign} {bound}, and is not bounded everywhere"),
-            }
-        }
-        Defect::Tolerance { targets } => {
-            let missed = targets.iter().map(|of| {
-                let most = quantity(of.tolerance.unwrap_or_default(), of.unit);
-                format!("{}, more than {most}", missed(of))
-            });
-            let missed: Vec<String> = missed.collect();
-            format!("misses by {}", missed.join(" and "))
-        }
-        Defect::NotJudged => "its motion could not be judged".into(),
-    }
-}
-
-/// `position 2 is` or `positions 2 and 3 are`
-fn are(of: &[usize]) -> String {
-    let positions = form(of.len(), "position", "positions");
-    let numbers: Vec<String> = of.iter().map(usize::to_string).collect();
-    format!("{positions} {}", clause(&numbers, "is", "are"))
-}
-
 impl Report for DesignReport {
     fn document(&self) -> Document {
         let mut document = Document::new(&self.mechanism, answer(self))
@@ -370,16 +223,22 @@ impl Report for DesignReport {
             let value =
                 |design: &Design, k: usize| Cell::quantity(design.values[k], self.varied[k].unit);
             let cognates = self.designs.iter().any(|of| !of.cognates.is_empty());
-            let goal = |of: &Design| match (&self.goal, of.goal) {
+            let goal = |of: &Design, k: usize| match (goals(self).nth(k), worth(of)[k]) {
                 (Some(goal), Some(value)) => Cell::quantity(value, goal.unit),
                 _ => "unknown".into(),
             };
-            let table = columns(self, value)
+            let table = columns(self, SHOWN, value)
                 .numbers("sum of squares", |(_, of)| squares(of.sum_of_squares))
-                .each(figure(self), |(_, of), _| goal(of))
+                .each(figures(self), |(_, of), k| goal(of, k))
                 .each(cognates.then_some("cognates"), |(_, of), _| listed(of))
                 .words("verdict", |(_, of)| verdict(self, of));
-            document = document.table("Designs", table);
+            let title = match self.designs.len() {
+                all if all > SHOWN => {
+                    format!("Designs, {SHOWN} of {all}; CSV and JSON have all of them")
+                }
+                _ => "Designs".into(),
+            };
+            document = document.table(&title, table);
         }
         if let Some(first) = self.designs.first() {
             let table = Table::of(&first.deviations)
@@ -422,35 +281,7 @@ impl Report for DesignReport {
         if self.more > 0 {
             document = document.note(format!("{} not listed.", count(self.more, "further end")));
         }
-        document.method.extend(self.not_all.map(not_all));
-        if self.surplus > 0 && !self.varied.is_empty() {
-            document.method.push(format!(
-                "There are {} more than unknowns, so that in general no mechanism meets all: of the kinds of synthesis the fit by \
-                 least squares remains. For all exact designs leave as many out, or vary as many further numbers.",
-                count(self.surplus, "target"),
-            ));
-        }
-        match &self.exact {
-            _ if self.varied.is_empty() => {}
-            Some(exact) => document.method.extend(all_of(exact)),
-            None => document.method.push(format!(
-                "Least squares from {} (seed {}); {} could not be assembled in all positions. What random starts do not reach is not \
-                 found; how many ends beyond the best are listed depends on the seed.",
-                count(self.starts, "random start"),
-                self.seed,
-                count(self.not_assembled, "further start"),
-            )),
-        }
-        let improved = self.goal.as_ref().filter(|goal| goal.improved > 0);
-        document.method.extend(improved.map(|goal| {
-            format!(
-                "{} made as {} as it gets from {} that meet the targets, by the simplex method of Nelder and Mead in what the \
-                 targets leave open, begun anew ever smaller; what it does not reach is not found.",
-                goal.figure,
-                if goal.greatest { "great" } else { "small" },
-                count(goal.improved, "design"),
-            )
-        }));
+        document.method.extend(searched::searched(self));
         document.method.push(match self.straight_moves {
             false => "Circuits, order and dead positions from the whole curve of each mechanism, followed in steps that cannot change \
                       branch."
@@ -463,10 +294,10 @@ impl Report for DesignReport {
     }
 
     fn rows(&self) -> Option<Rows<'_>> {
-        let table = columns(self, |design, k| design.values[k])
+        let table = columns(self, usize::MAX, |design, k| design.values[k])
             .numbers("sum_of_squares", |(_, of)| of.sum_of_squares)
             .numbers("defects", |(_, of)| of.defects.len())
-            .each(figure(self), |(_, of), _| of.goal);
+            .each(figures(self), |(_, of), k| worth(of)[k]);
         Some(table.into())
     }
 

@@ -6,6 +6,7 @@ mod paths;
 mod picture;
 mod words;
 
+pub(super) use course::DrawnCourse;
 pub use picture::Picture;
 pub use words::{certified, sentence};
 

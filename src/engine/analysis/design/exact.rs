@@ -368,6 +368,7 @@ impl Synthesis<'_, '_, '_> {
                     at: end.point,
                     squares: end.misfit.squares,
                     reached: 1,
+                    finished: true,
                     class,
                 });
             }

@@ -78,6 +78,7 @@ impl Task<'_> {
                 squares: self.bundle.misfit(&at).squares,
                 at,
                 reached: 1,
+                finished: true,
                 class,
             })
         });

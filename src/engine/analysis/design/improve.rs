@@ -5,7 +5,7 @@ use crate::linear::add;
 use crate::number::sorting::sort_by;
 use crate::number::tolerance::SAME;
 use crate::solve::{LeastSquares, LevenbergMarquardt, Watch, each, simplex};
-use crate::system::Bundled;
+use crate::system::{Bundle, Bundled};
 
 /// What a design costs; `None` for one that is none.
 pub type Cost<'a> = dyn Fn(&FoundEnd) -> Option<f64> + Sync + 'a;
@@ -20,28 +20,18 @@ impl Task<'_> {
         (estimate, cost): (&Cost, &Cost),
         watch: &Watch,
     ) -> usize {
-        /// Ends of which the costs are compared at most.
-        const JUDGED: usize = 60;
         /// Improved designs that are located to the last digits at most.
         const BEST: usize = 3;
         /// Sizes of the first simplices, in units of the numbers.
         const COARSE: [f64; 2] = [0.2, 0.05];
         const FINE: [f64; 3] = [1e-2, 1e-4, 1e-6];
-        let Some(least) = all.found.first().map(|of| of.squares) else {
-            return 0;
-        };
-        let zero = EXACT * self.size * self.size;
-        let nearest = all.found.iter().take(JUDGED);
-        let nearest = nearest.filter(|of| of.squares <= least * (1.0 + SAME) + zero);
-        let mut first: Vec<(FoundEnd, f64)> = nearest
-            .filter(|of| (self.bundle.model(&of.at)).is_some_and(|model| !model.open().is_empty()))
-            .filter_map(|of| Some((of.clone(), estimate(of)?)))
-            .collect();
+        let costs = |of: &FoundEnd| Some((of.clone(), estimate(of)?));
+        let mut first: Vec<_> = self.open_ends(all).into_iter().filter_map(costs).collect();
         sort_by(&mut first, |a, b| a.1.total_cmp(&b.1));
         first.truncate(most);
         let count = first.len();
-        let mut coarse = self.improved_all(&first, &COARSE, estimate, watch);
         if count > 0 {
+            let mut coarse = self.improved_all(&first, &COARSE, estimate, watch);
             coarse.truncate(BEST);
             let mut fine = self.improved_all(&coarse, &FINE, estimate, watch);
             for found in &mut fine {
@@ -57,8 +47,19 @@ impl Task<'_> {
         count
     }
 
+    /// Ends that meet the targets nearest, where numbers are open.
+    pub(super) fn open_ends<'e>(&self, all: &'e SearchedEnds) -> Vec<&'e FoundEnd> {
+        /// Ends of which the costs are compared at most.
+        const JUDGED: usize = 60;
+        let least = all.found.first().map_or(0.0, |of| of.squares);
+        let zero = EXACT * self.size * self.size;
+        let nearest = all.found.iter().take(JUDGED);
+        let nearest = nearest.filter(|of| of.squares <= least * (1.0 + SAME) + zero);
+        nearest.filter(|of| !self.open(of).is_empty()).collect()
+    }
+
     /// Improves designs: those that are different then, best first.
-    fn improved_all(
+    pub(super) fn improved_all(
         &self,
         from: &[(FoundEnd, f64)],
         sizes: &[f64],
@@ -97,16 +98,16 @@ impl Task<'_> {
         /// A part of the cost that is worth another round.
         const GAIN: f64 = 1e-4;
         let mut best = from.clone();
+        let bundle = self.kept(&from.0.at.numbers);
         for size in sizes {
             for _ in 0..ROUNDS {
-                let model = self.bundle.model(&best.0.at);
-                let open = model.map_or_else(Vec::new, |model| model.open());
+                let open = self.open(&best.0);
                 if open.is_empty() || watch.is_stopped() {
                     return best;
                 }
                 let (base, before) = best.clone();
                 simplex(open.len(), *size, watch, |along| {
-                    let found = self.beside(&base, &open, along)?;
+                    let found = self.beside(&bundle, &base, &open, along)?;
                     let costs = cost(&found)?;
                     if costs < best.1 {
                         best = (found, costs);
@@ -121,8 +122,20 @@ impl Task<'_> {
         best
     }
 
+    /// Directions of the numbers that the targets leave open.
+    fn open(&self, of: &FoundEnd) -> Vec<Vec<f64>> {
+        let model = self.bundle.model(&of.at);
+        model.map_or_else(Vec::new, |model| model.open(self.still()))
+    }
+
     /// The design some way along open directions of the numbers that meets the targets as well.
-    fn beside(&self, from: &FoundEnd, open: &[Vec<f64>], along: &[f64]) -> Option<FoundEnd> {
+    fn beside(
+        &self,
+        bundle: &Bundle,
+        from: &FoundEnd,
+        open: &[Vec<f64>],
+        along: &[f64],
+    ) -> Option<FoundEnd> {
         let mut step = vec![0.0; self.ranges.len()];
         for (direction, part) in open.iter().zip(along) {
             add(&mut step, *part, direction);
@@ -133,10 +146,10 @@ impl Task<'_> {
             steps: 30,
         };
         let start = Bundled {
-            numbers: self.bundle.stepped_numbers(&from.at.numbers, &step),
+            numbers: bundle.stepped_numbers(&from.at.numbers, &step),
             configurations: from.at.configurations.clone(),
         };
-        let end = method.solve(&self.bundle, start);
+        let end = method.solve(bundle, start);
         let zero = EXACT * self.size * self.size;
         let meets = end.misfit.squares <= from.squares + zero && end.misfit.equations <= EXACT;
         meets.then(|| FoundEnd {

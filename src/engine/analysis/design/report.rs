@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::exact::{Exact, NotAll};
+use super::listed::Listed;
 use crate::algebra::SiUnit;
 use crate::system::{Bound, Target};
 
@@ -150,6 +151,9 @@ pub struct Design {
     /// The value of the figure that is improved; `None` without one, or if it is not determined everywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<f64>,
+    /// The value of the second figure, where there are two.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_goal: Option<f64>,
     /// All targets.
     pub deviations: Vec<Deviation>,
     /// For each number the root of the sum of squares of the weighted changes of all targets, for a change of it by one unit.
@@ -220,6 +224,12 @@ pub struct DesignReport {
     /// What is improved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
+    /// What is improved beside it: of the designs none is beaten in both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_goal: Option<Goal>,
+    /// Counts of the combinations of listed values that were tried, where numbers have lists.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub listed: Option<Listed>,
     /// True for a mechanism with several freedoms: designs are judged on straight moves of the driven joints from each position to
     /// the next.
     pub straight_moves: bool,

@@ -23,6 +23,8 @@ pub struct Task<'m> {
     pub plain: Option<Bundle<'m>>,
     /// The ranges of the numbers, in m or rad or without unit.
     pub ranges: Vec<(f64, f64)>,
+    /// For each number the values that it may have; none where it may have all of its range.
+    pub listed: Vec<Vec<f64>>,
     /// For each number true if it is an angle.
     pub angles: Vec<bool>,
     /// The size of what the targets describe, in m.
@@ -52,6 +54,8 @@ pub struct FoundEnd {
     pub squares: f64,
     /// Number of starts that led to it.
     pub reached: usize,
+    /// True if it is a least one, or no better one was found in many steps.
+    pub finished: bool,
     /// The linkage that it is: those of one class differ by an exchange of links only, so that another one drives.
     pub class: usize,
 }
@@ -72,14 +76,23 @@ pub struct SearchedEnds {
 /// A sum of squares below this part of that of the targets' size is rounding: the targets are met.
 pub(super) const EXACT: f64 = 1e-20;
 
+/// Steps at most, and the tolerance, of fits that are rough, and of others.
+const ROUGHLY: (u64, f64) = (60, 1e-6);
+pub(super) const FULLY: (u64, f64) = (1000, 1e-12);
+
 impl Task<'_> {
     /// Searches until the least sum of squares of an end that `judge` accepts has come again often enough.
+    ///
+    /// Every start is followed roughly first. Of those that are not at their ends then one after another is followed further while it
+    /// is lower than what was accepted: most go along valleys in which nothing is found.
     pub fn search(&self, judge: &dyn Fn(&FoundEnd) -> bool, watch: &Watch) -> SearchedEnds {
         const BATCH: usize = 8;
-        /// Ends that are judged at most.
+        /// Ends that are judged, and that are located to the last digits, at most.
         const JUDGED: usize = 60;
+        const LISTED: usize = 12;
         let mut all = SearchedEnds::default();
         let mut judged: Vec<(Bundled, bool)> = Vec::new();
+        let mut best: Option<f64> = None;
         let mut tried = 0;
         while tried < self.starts {
             if watch.stops(Stage::Starts, tried, Some(self.starts)) {
@@ -97,13 +110,20 @@ impl Task<'_> {
                 }
             }
             sort_by(&mut all.found, |a, b| a.squares.total_cmp(&b.squares));
+            // unless it is lower, where it ends does not matter
+            let lower = |of: &FoundEnd| !of.finished && best.is_none_or(|best| of.squares < best);
+            if let Some(place) = all.found.iter().position(lower) {
+                let end = all.found.remove(place);
+                self.add(&mut all.found, self.finished(end));
+                sort_by(&mut all.found, |a, b| a.squares.total_cmp(&b.squares));
+            }
             // where so many random dimensions cannot be assembled hardly any can
             const HOPELESS: usize = 900;
             if all.starts == 0 && all.not_assembled > HOPELESS {
                 break;
             }
-            let mut best: Option<f64> = None;
-            for found in &all.found {
+            best = None;
+            for found in all.found.iter().filter(|of| of.finished) {
                 let known = judged.iter().find(|(at, _)| self.same(at, &found.at));
                 let good = match known {
                     Some((_, good)) => *good,
@@ -132,6 +152,17 @@ impl Task<'_> {
             }
         }
         all.interrupted |= watch.is_stopped();
+        if all.found.iter().any(|of| of.finished) {
+            all.found.retain(|of| of.finished);
+        }
+        // those that are listed first to the last digits
+        let rest = all.found.split_off(LISTED.min(all.found.len()));
+        let first = std::mem::take(&mut all.found);
+        let first = each(first.len(), &(), |(), i| self.finished(first[i].clone()));
+        for end in first.into_iter().chain(rest) {
+            self.add(&mut all.found, end);
+        }
+        sort_by(&mut all.found, |a, b| a.squares.total_cmp(&b.squares));
         all
     }
 
@@ -156,7 +187,7 @@ impl Task<'_> {
         near.all(|near| near)
     }
 
-    fn add(&self, known: &mut Vec<FoundEnd>, end: FoundEnd) {
+    pub(super) fn add(&self, known: &mut Vec<FoundEnd>, end: FoundEnd) {
         let least = |a: f64, b: f64| (a - b).abs() <= SAME * a.min(b);
         let one = |of: &FoundEnd| {
             self.same(&of.at, &end.at)
@@ -202,21 +233,40 @@ impl Task<'_> {
                 }
             }
         }
-        let end = best.map(|(_, start)| {
-            let method = LevenbergMarquardt {
-                damping: 1e-2,
-                tolerance: 1e-12,
-                steps: 1000,
-            };
-            let end = method.solve(&self.bundle, start);
-            FoundEnd {
-                at: end.point,
-                squares: end.misfit.squares,
-                reached: 1,
-                class: number,
-            }
-        });
-        (failed, end)
+        let rough = |(_, start)| Self::fitted(&self.bundle, start, ROUGHLY, number);
+        (failed, best.map(rough))
+    }
+
+    /// The end to which so many steps of Levenberg and Marquardt's method at most lead from a point, to a tolerance.
+    pub(super) fn fitted(
+        bundle: &Bundle,
+        from: Bundled,
+        (steps, tolerance): (u64, f64),
+        class: usize,
+    ) -> FoundEnd {
+        let method = LevenbergMarquardt {
+            damping: 1e-2,
+            tolerance,
+            steps,
+        };
+        let end = method.solve(bundle, from);
+        FoundEnd {
+            at: end.point,
+            squares: end.misfit.squares,
+            reached: 1,
+            finished: end.converged,
+            class,
+        }
+    }
+
+    /// The end to which another one leads.
+    fn finished(&self, of: FoundEnd) -> FoundEnd {
+        let end = Self::fitted(&self.bundle, of.at, FULLY, of.class);
+        FoundEnd {
+            finished: true,
+            reached: of.reached,
+            ..end
+        }
     }
 
     /// Random numbers in their ranges: lengths of the order of the task's size first of all.

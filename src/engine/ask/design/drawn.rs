@@ -17,6 +17,8 @@ pub struct DrawnDesign {
     pub mechanism: Mechanism,
     /// Its configuration in the first position.
     pub at: Configuration<f64>,
+    /// Configurations along its motion; none where it has several freedoms.
+    pub moving: Vec<Configuration<f64>>,
     /// The points that have targets, with their curves where the mechanism has one freedom.
     pub curves: Vec<(String, Vec<[f64; 3]>)>,
     /// The positions with targets of a point, by their numbers from 1.
@@ -46,13 +48,33 @@ impl Design {
                 targets.push((k + 1, target));
                 let name = &named.name.value;
                 if curves.iter().all(|(known, _)| known != name) {
-                    curves.push((name.clone(), curve(&question, name, watch)));
+                    curves.push((name.clone(), Vec::new()));
                 }
             }
+        }
+        let settings = SweepSettings {
+            follow: true,
+            between: true,
+            ..SweepSettings::default()
+        };
+        let points = curves
+            .iter()
+            .map(|(name, _)| with_numbers(&mechanism, name));
+        let points: Vec<String> = points.collect::<Option<_>>()?;
+        let question = points.into_iter().fold(question, Question::point);
+        let mut moving = Vec::new();
+        let mut sink = |_: Option<usize>, row: &Row| {
+            let curves = curves.iter_mut().zip(row.points);
+            curves.for_each(|((_, curve), point)| curve.push(*point));
+            moving.push(row.configuration.clone());
+        };
+        if let Ok(motions) = question.motions(&settings, watch) {
+            motions.report(2, &mut sink, watch);
         }
         Some(DrawnDesign {
             mechanism,
             at,
+            moving,
             curves,
             targets,
         })
@@ -70,22 +92,4 @@ pub(super) fn with_numbers(mechanism: &Mechanism, name: &str) -> Option<String> 
     });
     let offsets: Vec<String> = offsets.collect::<Option<_>>()?;
     Some(format!("{}+{}", frame.trim(), offsets.join(",")))
-}
-
-/// The curve of a point, whose offsets may be expressions; empty where it cannot be followed.
-fn curve(question: &Question, name: &str, watch: &Watch) -> Vec<[f64; 3]> {
-    let Some(point) = with_numbers(question.mechanism(), name) else {
-        return Vec::new();
-    };
-    let settings = SweepSettings {
-        follow: true,
-        between: true,
-        ..SweepSettings::default()
-    };
-    let mut points = Vec::new();
-    let mut sink = |_: Option<usize>, row: &Row| points.extend(row.points.first());
-    if let Ok(motions) = question.clone().point(point).motions(&settings, watch) {
-        motions.report(2, &mut sink, watch);
-    }
-    points
 }

@@ -1,8 +1,8 @@
 //! Designs judged over their whole motion.
 
+mod defects;
 mod moves;
 
-use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub(super) struct Judge<'a> {
     mechanism: &'a Arc<Mechanism>,
     pub watch: &'a Watch<'a>,
     bounds: Vec<FigureBound>,
-    goal: Option<Figure>,
+    goals: Vec<Figure>,
     /// True if the mechanism has one freedom.
     pub one_freedom: bool,
     /// Closures with what is driven held, by which designs with several freedoms move in a search.
@@ -45,8 +45,8 @@ pub(super) struct Verdict {
     pub defects: Vec<Defect>,
     /// How the driving joint moves.
     pub moves: Moves,
-    /// The value of what is improved; `None` for a design with defects, or if it is not determined everywhere.
-    pub goal: Option<f64>,
+    /// The value of each goal, unless it is not determined everywhere; none for a design with defects.
+    pub goals: Vec<Option<f64>>,
 }
 
 /// Slack of a bound that is met, beside its size.
@@ -127,11 +127,15 @@ impl<'a> Judge<'a> {
                 at_least,
             });
         }
-        let goal = asked.goal.as_ref().map(|goal| {
+        let goals = asked.goals.iter().enumerate().map(|(i, goal)| {
             let text = &goal.figure.value;
             let no_figure = || DesignProblem::NoFigure { text: text.clone() };
             let read = figure(text, None).and_then(|figure| figure.ok_or_else(no_figure));
-            read.map_err(|problem| problem.at(DesignPart::Goal))
+            let read = match i {
+                0 | 1 => read,
+                _ => Err(DesignProblem::MoreGoals),
+            };
+            read.map_err(|problem| problem.at(DesignPart::Goal(i)))
         });
         let one_freedom = Question::new(mechanism.clone()).one_freedom().is_ok();
         let held = (!one_freedom).then(|| {
@@ -148,18 +152,18 @@ impl<'a> Judge<'a> {
             mechanism,
             watch,
             bounds,
-            goal: goal.transpose()?,
+            goals: goals.collect::<Result<_, _>>()?,
         })
     }
 
     /// True if designs that meet the targets differ in worth.
     pub fn improves(&self) -> bool {
-        self.goal.is_some() || !self.bounds.is_empty()
+        !(self.goals.is_empty() && self.bounds.is_empty())
     }
 
-    /// The unit of what is improved.
-    pub fn unit_of_goal(&self) -> Option<SiUnit> {
-        self.goal.as_ref().map(|goal| goal.unit)
+    /// The units of the goals.
+    pub fn units_of_goals(&self) -> impl Iterator<Item = SiUnit> {
+        self.goals.iter().map(|goal| goal.unit)
     }
 
     /// The mechanism of a design.
@@ -172,7 +176,12 @@ impl<'a> Judge<'a> {
     /// The file of a design, which begins in the first position.
     pub fn file(&self, found: &FoundEnd) -> String {
         let mut description = self.description.clone();
-        let names = self.asked.vary.iter().map(|named| &named.name.value);
+        let parameters = self.mechanism.parameters();
+        let names = self
+            .read
+            .varied
+            .iter()
+            .map(|of| &parameters[of.parameter].name);
         for (name, value) in names.zip(&found.at.numbers) {
             if let Ok(changed) = description.clone().with_parameter(name, &number(*value)) {
                 description = changed;
@@ -189,16 +198,16 @@ impl<'a> Judge<'a> {
         description.to_ron().unwrap_or_default()
     }
 
-    /// What a design costs: the value of the goal, negative if it shall be great, or more than any goal where bounds are missed.
-    /// `None` for other defects.
-    pub fn cost(&self, found: &FoundEnd) -> Option<f64> {
-        self.costs(&self.verdict(found))
+    /// What a design costs by each goal, or by none: the value of the goal, negative if it shall be great, or more than any goal
+    /// where bounds are missed. `None` for other defects.
+    pub fn costs(&self, found: &FoundEnd) -> Option<Vec<f64>> {
+        self.costs_of(&self.verdict(found))
     }
 
     /// What a design costs, of several freedoms by a few places of its moves alone: a search judges many.
-    pub fn estimate(&self, found: &FoundEnd) -> Option<f64> {
+    pub fn estimates(&self, found: &FoundEnd) -> Option<Vec<f64>> {
         let Some(held) = &self.held else {
-            return self.cost(found);
+            return self.costs(found);
         };
         let mechanism = self.designed(found)?;
         let mut verdict = Verdict::default();
@@ -209,10 +218,10 @@ impl<'a> Judge<'a> {
             let seen = self.at_positions(&mechanism, &places);
             self.weighed(&seen, &mut verdict);
         }
-        self.costs(&verdict)
+        self.costs_of(&verdict)
     }
 
-    fn costs(&self, verdict: &Verdict) -> Option<f64> {
+    fn costs_of(&self, verdict: &Verdict) -> Option<Vec<f64>> {
         const MISSED: f64 = 1e30;
         let missed = verdict.defects.iter().map(|defect| match defect {
             Defect::Condition {
@@ -223,20 +232,26 @@ impl<'a> Judge<'a> {
             _ => None,
         });
         let missed: f64 = missed.sum::<Option<f64>>()?;
-        match &self.asked.goal {
-            _ if missed > 0.0 => Some(MISSED * (1.0 + missed)),
-            None => Some(0.0),
-            Some(goal) if goal.greatest => Some(-verdict.goal?),
-            Some(_) => verdict.goal,
+        if missed > 0.0 || self.goals.is_empty() {
+            let cost = if missed > 0.0 {
+                MISSED * (1.0 + missed)
+            } else {
+                0.0
+            };
+            return Some(vec![cost; self.goals.len().max(1)]);
         }
+        let goals = verdict.goals.iter().zip(&self.asked.goals);
+        goals
+            .map(|(value, goal)| Some(goal.sign() * (*value)?))
+            .collect()
     }
 
     /// Bounds and goal by what the figures see.
     fn weighed(&self, seen: &[Vec<Observed>], verdict: &mut Verdict) {
         self.bounded(seen, &mut verdict.defects);
         if verdict.defects.is_empty() {
-            let goal = self.goal.as_ref().zip(seen.last());
-            verdict.goal = goal.and_then(|(goal, seen)| goal.of(seen));
+            let goals = self.goals.iter().zip(seen.iter().skip(self.bounds.len()));
+            verdict.goals = goals.map(|(goal, seen)| goal.of(seen)).collect();
         }
     }
 
@@ -291,94 +306,6 @@ impl<'a> Judge<'a> {
             }
         }
         at
-    }
-
-    fn outside(
-        &self,
-        mechanism: &Mechanism,
-        positions: &[Configuration<f64>],
-        defects: &mut Vec<Defect>,
-    ) {
-        let mut beyond: Vec<(usize, usize)> = Vec::new();
-        for (i, at) in positions.iter().enumerate() {
-            let mut joints = at.joints.clone();
-            mechanism.turn_to_limits(&mut joints);
-            beyond.extend(
-                mechanism
-                    .outside_limits(&joints)
-                    .map(|joint| (joint, i + 1)),
-            );
-        }
-        if !beyond.is_empty() {
-            let different = |of: fn(&(usize, usize)) -> usize| {
-                let all: BTreeSet<usize> = beyond.iter().map(of).collect();
-                all.into_iter()
-            };
-            let joints = different(|of| of.0);
-            let joints = joints.map(|joint| mechanism.joints()[joint].name.clone());
-            let joints = joints.collect();
-            let positions = different(|of| of.1).collect();
-            defects.push(Defect::Limit { joints, positions });
-        }
-    }
-
-    fn judge(&self, mechanism: &Mechanism, course: &DesignCourse, defects: &mut Vec<Defect>) {
-        let numbers = |places: Vec<usize>| places.into_iter().map(|i| i + 1).collect::<Vec<_>>();
-        let elsewhere = course.elsewhere();
-        if !elsewhere.is_empty() {
-            let mut limits = course.limits.clone();
-            limits.sort_unstable();
-            limits.dedup();
-            defects.push(match limits.is_empty() {
-                true => Defect::Circuit {
-                    positions: numbers(elsewhere),
-                },
-                false => Defect::Limit {
-                    joints: (limits.iter())
-                        .map(|joint| mechanism.joints()[*joint].name.clone())
-                        .collect(),
-                    positions: numbers(elsewhere),
-                },
-            });
-        }
-        let beyond = course.beyond_dead();
-        if let (false, Some(driver)) = (beyond.is_empty(), self.read.driver) {
-            defects.push(Defect::Branch {
-                driver: mechanism.joints()[driver].name.clone(),
-                positions: numbers(beyond),
-            });
-        }
-        let ordered = self.read.driven || self.asked.any_order;
-        if course.elsewhere().is_empty() && !ordered && !course.in_order() {
-            defects.push(Defect::Order {
-                order: numbers(course.order()),
-            });
-        }
-        if course.crosses {
-            defects.push(Defect::Crossing);
-        }
-    }
-
-    /// The bounds that are not kept.
-    fn bounded(&self, seen: &[Vec<Observed>], defects: &mut Vec<Defect>) {
-        for (bound, seen) in self.bounds.iter().zip(seen) {
-            let (limit, at_least) = (bound.bound, bound.at_least);
-            let worst = bound.figure.of(seen);
-            let slack = SLACK * (1.0 + limit.abs());
-            let kept = worst.is_some_and(|worst| match at_least {
-                true => worst >= limit - slack,
-                false => worst <= limit + slack,
-            });
-            if !kept {
-                defects.push(Defect::Condition {
-                    quantity: bound.figure.name.clone(),
-                    unit: bound.figure.unit,
-                    bound: limit,
-                    worst,
-                    at_least,
-                });
-            }
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The parts of a design question, resolved.
 
-use super::figure::{in_unit, no_quantity};
+use super::targets::{size, targets_of};
 use super::weights::Weights;
 use super::{Design, DesignError};
 use crate::algebra::{Measure, SiUnit};
@@ -8,10 +8,11 @@ use crate::analysis::design::{Deviation, FoundEnd};
 use crate::ask::{Question, study};
 use crate::description::{
     Description, DesignDescription, DesignPart, DesignProblem, Entry, Named, Problem, ProblemKind,
-    Role, nearest,
+    Role, Varied, nearest,
 };
-use crate::mechanism::{Measured, Mechanism, Quantity};
+use crate::mechanism::{Measured, Mechanism};
 use crate::number::Interval;
+use crate::number::sorting::sort_by;
 use crate::number::tolerance::SAME;
 use crate::system::{Bundle, Held, Target, Value};
 
@@ -19,6 +20,8 @@ use crate::system::{Bundle, Held, Target, Value};
 pub(super) struct VariedNumber {
     pub parameter: usize,
     pub range: (f64, f64),
+    /// The values that it may have, in ascending order; none where it may have all of its range.
+    pub listed: Vec<f64>,
     pub unit: SiUnit,
     pub angle: bool,
 }
@@ -52,12 +55,12 @@ impl Design {
             {
                 continue;
             }
-            // amid its range, whose unit it has
-            let [from, to] = &varied.value;
-            let plain = varied
-                .value
-                .iter()
-                .all(|of| of.expression.as_number().is_some());
+            // amid its values, whose unit it has
+            let entries = varied.value.entries();
+            let (Some(from), Some(to)) = (entries.first(), entries.last()) else {
+                continue;
+            };
+            let plain = (entries.iter()).all(|of| of.expression.as_number().is_some());
             let unit = match known {
                 Some(mechanism) if plain => self.unit_in_use(name, mechanism),
                 _ => "",
@@ -71,6 +74,21 @@ impl Design {
             description.parameters.push(named);
         }
         description
+    }
+
+    /// The mechanism file in which numbers follow from others as the question says.
+    pub(super) fn tied(&self, mut description: Description) -> Result<Description, DesignError> {
+        for (i, named) in self.asked.vary.iter().enumerate() {
+            if let Varied::Equal(entry) = &named.value {
+                let text = entry.expression.to_string();
+                let tied = description.with_parameter(&named.name.value, &text);
+                description = tied.map_err(|error| {
+                    let why = error.to_string();
+                    DesignProblem::Value { text, why }.of_value(DesignPart::Vary(i))
+                })?;
+            }
+        }
+        Ok(description)
     }
 
     /// A factor with the unit of the first place where the positions use a further unknown.
@@ -160,12 +178,16 @@ impl Read {
             let idle = |problem: &Problem| matches!(&problem.kind, ProblemKind::UnusedParameter { name: idle } if idle == name);
             targets.iter().any(of) || !mechanism.warnings().iter().any(idle)
         };
-        for (i, of) in varied.iter().enumerate() {
-            if !used(of.parameter) {
-                let name = asked.vary[i].name.value.clone();
-                let known = (0..mechanism.parameters().len()).filter(|i| *i != of.parameter);
-                let known = known.map(|i| &*mechanism.parameters()[i].name);
-                let suggestion = nearest(&name, known).map(str::to_owned);
+        for (i, of) in asked.vary.iter().enumerate() {
+            let name = &of.name.value;
+            let mut parameters = mechanism.parameters().iter();
+            if parameters
+                .position(|of| *of.name == **name)
+                .is_some_and(|of| !used(of))
+            {
+                let known = mechanism.parameters().iter().map(|of| &*of.name);
+                let known = known.filter(|known| known != name);
+                let (name, suggestion) = (name.clone(), nearest(name, known).map(str::to_owned));
                 return Err(DesignProblem::Unused { name, suggestion }.at(DesignPart::Vary(i)));
             }
         }
@@ -249,6 +271,9 @@ fn varied(
     let mut all = Vec::new();
     for (i, named) in asked.vary.iter().enumerate() {
         let (part, name) = (DesignPart::Vary(i), &named.name.value);
+        if matches!(named.value, Varied::Equal(_)) {
+            continue;
+        }
         if mechanism.joint(name).is_some() {
             return Err(DesignProblem::VariesJoint { name: name.clone() }.at(part));
         }
@@ -270,9 +295,17 @@ fn varied(
                 DesignProblem::Value { text, why }.of_value(part)
             })
         };
-        let [from, to] = &named.value;
-        let range = (number(from)?, number(to)?);
-        if range.0 > range.1 {
+        let listed = matches!(named.value, Varied::OneOf(_));
+        let values = named.value.entries().iter().map(number);
+        let mut values = values.collect::<Result<Vec<f64>, _>>()?;
+        if listed {
+            sort_by(&mut values, f64::total_cmp);
+            values.dedup();
+        }
+        let (Some(&from), Some(&to)) = (values.first(), values.last()) else {
+            continue;
+        };
+        if from > to {
             return Err(DesignProblem::Reversed { name: name.clone() }.of_value(part));
         }
         let measure = match mechanism.measure_in_use(parameter) {
@@ -281,106 +314,11 @@ fn varied(
         };
         all.push(VariedNumber {
             parameter,
-            range,
+            range: (from, to),
+            listed: if listed { values } else { Vec::new() },
             unit: measure.si_unit().unwrap_or(SiUnit::ONE),
             angle: measure == Measure::Angle,
         });
     }
     Ok(all)
-}
-
-/// The coordinate of a point in ground as an expression: its offsets may be expressions of unknowns.
-fn coordinate(of: &str, axis: &str) -> String {
-    let (frame, offsets) = of.split_once('+').unwrap_or((of, ""));
-    let frame = frame.trim();
-    let numbers = offsets
-        .split(',')
-        .all(|text| text.trim().parse::<f64>().is_ok());
-    if offsets.is_empty() || numbers {
-        return format!("[{}].{axis}", of.trim());
-    }
-    let mut text = format!("[{frame}].{axis}");
-    let along = ["1", "0,1", "0,0,1"];
-    for (offset, along) in offsets.split(',').zip(along) {
-        text += &format!(" + ({offset})*([{frame}+{along}].{axis} - [{frame}].{axis})/(1 m)");
-    }
-    text
-}
-
-fn targets_of(
-    mechanism: &Mechanism,
-    (configuration, boxed): (usize, bool),
-    named: &Named<Vec<Entry>>,
-    part: DesignPart,
-) -> Result<Vec<Target>, DesignError> {
-    let name = &named.name.value;
-    let values = &named.value;
-    let point = match values.len() {
-        1 => None,
-        count => {
-            let frame = name.split('+').next().unwrap_or(name).trim();
-            if mechanism.frame(frame).is_none() {
-                let name = name.clone();
-                return Err(DesignProblem::NotAPoint { name, count }.at(part));
-            }
-            Some(["x", "y", "z"])
-        }
-    };
-    let mut targets = Vec::new();
-    for (i, value) in values.iter().enumerate() {
-        let (label, text) = match point {
-            None => (name.clone(), name.clone()),
-            Some(axes) => (format!("{name}.{}", axes[i]), coordinate(name, axes[i])),
-        };
-        let read = |text: &str| {
-            let read = Quantity::read(mechanism, &label, text);
-            read.map_err(|error| no_quantity(error).at(part))
-        };
-        let plain = read(&text)?;
-        let constant = value.expression.names().next().is_none();
-        let (quantity, value) = match constant {
-            true => {
-                let number = in_unit(mechanism, plain.unit, value);
-                (plain, number.map_err(|problem| problem.of_value(part))?)
-            }
-            false => (read(&format!("({text}) - ({})", value.expression))?, 0.0),
-        };
-        let of_position = |of: &Measured| {
-            use crate::mechanism::Order::Value;
-            matches!(
-                of,
-                Measured::Parameter(_) | Measured::Joint(_, Value) | Measured::Place(_, _, Value)
-            )
-        };
-        if !quantity.measured().all(of_position) {
-            return Err(DesignProblem::NotOfPosition { name: label }.at(part));
-        }
-        let given = |joint: usize| mechanism.joints()[joint].role == Role::Actuated;
-        let exact = boxed || mechanism.joint(name).is_some_and(given);
-        let length = mechanism.characteristic_length();
-        let weight = match exact && quantity.unit == SiUnit::METRE {
-            true => 1.0 / length,
-            false => 1.0,
-        };
-        targets.push(Target {
-            configuration,
-            quantity,
-            value,
-            weight,
-            exact,
-        });
-    }
-    Ok(targets)
-}
-
-/// The extent of the lengths among the targets, or without any the mechanism's own.
-fn size(mechanism: &Mechanism, targets: &[Target]) -> f64 {
-    let lengths = targets
-        .iter()
-        .filter(|of| of.quantity.unit == SiUnit::METRE);
-    let most = lengths.map(|of| of.value.abs()).fold(0.0, f64::max);
-    match most > 0.0 && most.is_finite() {
-        true => most,
-        false => mechanism.characteristic_length(),
-    }
 }

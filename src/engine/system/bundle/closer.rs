@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::DMatrix;
 
 use super::elimination::Blocks;
+use super::written::Storage;
 use super::{Bundle, Bundled, Lanes, Target};
 use crate::linear::norm;
 use crate::mechanism::Configuration;
@@ -34,6 +35,7 @@ impl<'m> Bundle<'m> {
         Some(Closer {
             bundle: self,
             numbers: numbers.to_vec(),
+            storage: Storage::default(),
             built,
         })
     }
@@ -71,10 +73,10 @@ impl<'m> Bundle<'m> {
     ) -> Vec<f64> {
         let each = configurations.iter();
         if let Some(written) = &self.written {
-            let squares = |at: &Configuration<f64>| {
-                let linear = self.linear_by(written, numbers, (place, at));
-                let left = linear.targets.iter().filter_map(|row| row.last());
-                left.map(|x| x * x).sum::<f64>()
+            let mut storage = Storage::default();
+            let squares = |at| {
+                let of = self.misfit_of(written, numbers, (place, at), &mut storage);
+                of.squares + of.equations
             };
             return each.map(squares).collect();
         }
@@ -117,6 +119,7 @@ impl<'m> Bundle<'m> {
 pub struct Closer<'b, 'm> {
     bundle: &'b Bundle<'m>,
     numbers: Vec<f64>,
+    storage: Storage,
     built: Option<Built>,
 }
 
@@ -132,7 +135,10 @@ impl Closer<'_, '_> {
     fn linear(&mut self, place: usize, at: &Configuration<f64>) -> Option<Blocks> {
         let exact = self.bundle.exact(place);
         let mut linear = match (&self.bundle.written, &mut self.built) {
-            (Some(written), _) => self.bundle.linear_by(written, &self.numbers, (place, at)),
+            (Some(written), _) => {
+                let (bundle, storage) = (self.bundle, &mut self.storage);
+                return Some(bundle.closing_by(written, &self.numbers, (place, at), storage));
+            }
             (None, None) => return None,
             (None, Some(built)) => {
                 built.system.linearise(at, &mut built.work);

@@ -112,15 +112,10 @@ impl Blocks {
         }
         let width = size + self.numbers + 1;
         let row = |i: usize| {
-            let of = |all: &[f64]| {
-                all.iter()
-                    .skip(i)
-                    .step_by(rows)
-                    .copied()
-                    .collect::<Vec<f64>>()
-            };
-            let sides = of(&self.by_numbers).into_iter().chain([self.closures[i]]);
-            of(&self.by_unknowns).into_iter().chain(sides.map(|x| -x))
+            let sides = self.by_numbers.iter().skip(i).step_by(rows);
+            let sides = sides.chain([&self.closures[i]]).map(|x| -x);
+            let unknowns = self.by_unknowns.iter().skip(i).step_by(rows).copied();
+            unknowns.chain(sides)
         };
         let mut matrix = SideRows {
             width,
@@ -133,7 +128,7 @@ impl Blocks {
         if !matrix.eliminate(size) {
             return None;
         }
-        let regular = (0..size).all(|i| matrix.row(i)[i].abs() > LEAST * largest);
+        let regular = (0..size).all(|i| matrix.row(i)[i].abs() * LEAST * largest < 1.0);
         let step = |side: usize| {
             let mut step = vec![0.0; size];
             matrix.back(size, &[], side, &mut step);

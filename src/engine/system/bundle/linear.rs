@@ -1,6 +1,7 @@
 //! All configurations of a bundle, linearised.
 
 use super::elimination::Blocks;
+use super::written::Storage;
 use super::{Bundle, Bundled, Lanes};
 use crate::mechanism::Configuration;
 use crate::number::{Gradient, Number};
@@ -41,8 +42,9 @@ impl Bundle<'_> {
     /// Closures and targets of every configuration, linearised.
     pub(super) fn linear(&self, at: &Bundled) -> Option<Vec<Blocks>> {
         if let Some(written) = &self.written {
+            let mut storage = Storage::default();
             let each = at.configurations.iter().enumerate().map(|(k, place)| {
-                let mut linear = self.linear_by(written, &at.numbers, (k, place));
+                let mut linear = self.linear_by(written, &at.numbers, (k, place), &mut storage);
                 linear.impose(&self.exact(k));
                 linear
             });

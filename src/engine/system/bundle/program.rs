@@ -65,6 +65,29 @@ impl Program {
         })
     }
 
+    /// Some of the rows with so many of the first derivatives of each: no more is evaluated than these need.
+    pub(super) fn part(&self, rows: impl Iterator<Item = usize>, directions: usize) -> Self {
+        let width = 1 + self.directions;
+        let kept = rows.flat_map(|row| &self.places[row * width..][..=directions]);
+        let mut places: Vec<Place> = kept.copied().collect();
+        Program {
+            operations: needed(&self.operations, &mut places),
+            places,
+            directions,
+        }
+    }
+
+    /// The values at some inputs, each row's and then its derivatives; row by row.
+    pub(super) fn values<'v, T: Number>(
+        &'v self,
+        inputs: &[T],
+        values: &'v mut Vec<T>,
+    ) -> impl ExactSizeIterator<Item = T> + Clone + 'v {
+        run(&self.operations, inputs, values);
+        let values = &*values;
+        self.places.iter().map(move |place| values[*place as usize])
+    }
+
     /// The rows at some inputs, one after another: each its value, then its derivatives by the unknowns and the numbers.
     pub(super) fn rows<'v, T: Number>(
         &self,

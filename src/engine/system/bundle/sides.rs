@@ -14,7 +14,7 @@ impl<T: Field> SideRows<T> {
         &self.entries[i * self.width..(i + 1) * self.width]
     }
 
-    /// Eliminates the first columns with row exchanges; false if a pivot is none.
+    /// Eliminates the first columns with row exchanges, and puts the inverses of the pivots in their places; false if a pivot is none.
     pub fn eliminate(&mut self, columns: usize) -> bool {
         let (width, count) = (self.width, self.entries.len() / self.width);
         for k in 0..columns {
@@ -31,12 +31,13 @@ impl<T: Field> SideRows<T> {
                 above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
             }
             let inverse = T::one() / self.entries[k * width + k];
+            self.entries[k * width + k] = inverse;
             let (above, below) = self.entries.split_at_mut((k + 1) * width);
             let pivot = &above[k * width..];
             for row in below.chunks_exact_mut(width) {
                 let factor = row[k] * inverse;
                 if factor.norm_squared() > 0.0 {
-                    for (x, y) in row[k..].iter_mut().zip(&pivot[k..]) {
+                    for (x, y) in row[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
                         *x -= factor * *y;
                     }
                 }
@@ -57,7 +58,7 @@ impl<T: Field> SideRows<T> {
             for (entry, value) in row[columns..].iter().zip(known) {
                 sum -= *entry * *value;
             }
-            x[k] = sum / row[k];
+            x[k] = sum * row[k];
         }
     }
 }

@@ -69,8 +69,8 @@ pub enum DesignProblem {
         best: f64,
         at_least: bool,
     },
-    #[error("a design has one goal, `minimise` or `maximise`")]
-    TwoGoals,
+    #[error("a design has two goals at most")]
+    MoreGoals,
     #[error("no mechanism in these ranges can be assembled in all positions ({tried} were tried{})", missed(.nearest))]
     NothingAssembles {
         tried: usize,
@@ -160,7 +160,7 @@ impl DesignProblem {
                     .into()
             }
             Self::Impossible { .. } => "ask for less, or widen the ranges of what varies".into(),
-            Self::TwoGoals => "leave one out, or bound it by `at_least` or `at_most`".into(),
+            Self::MoreGoals => "leave one out, or bound it by `at_least` or `at_most`".into(),
             Self::NothingAssembles { .. } => {
                 "widen the ranges, or ask for positions that the mechanism can reach".into()
             }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::description::expectation::form;
-use crate::description::{DesignDescription, DesignGoal, DesignProblem};
+use crate::description::{DesignDescription, DesignGoal, Varied};
 
 impl DesignDescription {
     pub(super) const GROUP: FieldGroup = FieldGroup {
@@ -52,7 +52,7 @@ impl FileReader {
         DesignDescription {
             name: name.unwrap_or_default(),
             mechanism: self.field(f, "mechanism", Expected::TEXT),
-            vary: self.field(f, "vary", Expected::MapOf(Noun::Varied)),
+            vary: self.named(f, "vary", Noun::Varied, Self::varied),
             positions: f.take("positions").map_or_else(Vec::new, |piece| {
                 let expected = Expected::Said("a list of positions `{…}`");
                 self.list(piece, expected, Self::position)
@@ -62,7 +62,9 @@ impl FileReader {
             contains: self.named(f, "contains", Noun::Target, |reader, piece| {
                 reader.vector(piece, Expected::RANGE)
             }),
-            motion: self.field(f, "motion", Expected::MapOf(Noun::Varied)),
+            motion: self.named(f, "motion", Noun::Input, |reader, piece| {
+                reader.vector(piece, Expected::RANGE)
+            }),
             at_least: self.named(f, "at_least", Noun::Output, Self::entry),
             at_most: self.named(f, "at_most", Noun::Output, Self::entry),
             outputs: f.take("outputs").map_or_else(Vec::new, |piece| {
@@ -72,7 +74,11 @@ impl FileReader {
                     reader.text(piece, Expected::TEXT)
                 })
             }),
-            goal: self.design_goal(f),
+            goals: [
+                self.goals(f, "minimise", false),
+                self.goals(f, "maximise", true),
+            ]
+            .concat(),
             any_order: f.take("order").is_some_and(|piece| {
                 let expected = Expected::Said("`Kept` or `Any`");
                 self.bare_word(piece, expected, &["Kept", "Any"], |word| word) == Some("Any")
@@ -91,17 +97,32 @@ impl FileReader {
         piece.map_or_else(Vec::new, |piece| self.map(piece, noun, read))
     }
 
-    fn design_goal(&mut self, fields: &mut Fields) -> Option<DesignGoal> {
-        let small: Option<Spanned<String>> = self.field(fields, "minimise", Expected::TEXT);
-        let great: Option<Spanned<String>> = self.field(fields, "maximise", Expected::TEXT);
-        if let (Some(_), Some(second)) = (&small, &great) {
-            let problem = ProblemKind::Design(Box::new(DesignProblem::TwoGoals));
-            self.problems.push(problem.at(second.span.clone()));
-        }
-        let greatest = small.is_none();
-        small
-            .or(great)
+    /// One figure, or a list of them.
+    fn goals(&mut self, fields: &mut Fields, field: &str, greatest: bool) -> Vec<DesignGoal> {
+        let pieces = fields
+            .take(field)
+            .map_or_else(Vec::new, |piece| match piece.shape() {
+                PieceShape::List => piece.elements(),
+                _ => vec![piece],
+            });
+        let figures = pieces.into_iter();
+        let figures = figures.filter_map(|piece| self.text(piece, Expected::TEXT));
+        figures
             .map(|figure| DesignGoal { figure, greatest })
+            .collect()
+    }
+
+    /// A range, a list of values, or an expression.
+    fn varied(&mut self, piece: Piece) -> Option<Varied> {
+        Some(match piece.shape() {
+            PieceShape::Tuple => Varied::Range(self.vector(piece, Expected::RANGE)?),
+            PieceShape::List if piece.elements().is_empty() => {
+                self.wrong_type(piece, Expected::Said("at least one value"));
+                return None;
+            }
+            PieceShape::List => Varied::OneOf(self.list(piece, Expected::ENTRY, Self::entry)),
+            _ => Varied::Equal(self.entry(piece)?),
+        })
     }
 
     /// One entry, or a list of them.

@@ -7,7 +7,7 @@ use crate::scene::Scene;
 
 /// Places along motions.
 #[derive(Clone, Debug, Default)]
-pub(super) struct DrawnCourse {
+pub struct DrawnCourse {
     motions: Vec<DrawnPlaces>,
     /// Points that are traced.
     points: Vec<Point>,

@@ -26,8 +26,8 @@ impl Judge<'_> {
         course: &DesignCourse,
     ) -> Vec<(String, f64, f64)> {
         let given = self.given_motion(mechanism);
-        let measured = !self.bounds.is_empty() || self.goal.is_some();
-        let (true, true, Some(driver)) = (given.is_empty(), measured, self.read.driver) else {
+        let (true, true, Some(driver)) = (given.is_empty(), self.improves(), self.read.driver)
+        else {
             return given;
         };
         // all of a turn, or from the least to the greatest of the positions
@@ -229,7 +229,7 @@ impl Judge<'_> {
 
     fn figures(&self) -> impl Iterator<Item = &Figure> {
         let bounds = self.bounds.iter().map(|bound| &bound.figure);
-        bounds.chain(&self.goal)
+        bounds.chain(&self.goals)
     }
 
     /// The quantities of all figures, each with a name of its own.
