@@ -132,7 +132,7 @@ impl Design {
             let cost = |of: &FoundEnd| judge.costs(of)?.first().copied();
             match exact.is_none() && judge.improves() {
                 true if self.asked.goals.len() > 1 => {
-                    task.front(searched, (self.most, IMPROVED), &front, watch)
+                    task.front(searched, (self.most, IMPROVED / 2), &front, watch)
                 }
                 true => task.improve(searched, IMPROVED, (&estimate, &cost), watch),
                 false => 0,

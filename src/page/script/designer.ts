@@ -78,7 +78,8 @@ export class Designer {
     this.list.addEventListener("input", () => this.set(read(this.list.value), false));
     this.which.addEventListener("change", () => this.chosen());
     this.point.addEventListener("change", () => this.asked());
-    for (const field of [this.more, this.anyOrder]) field.addEventListener("change", () => this.later());
+    this.more.addEventListener("change", () => this.later());
+    this.anyOrder.addEventListener("change", () => this.later());
     this.part.addEventListener("toggle", () => (this.part.open ? this.chosen() : this.wait(false)));
     model.onLoaded(() => {
       const { name } = model.mechanism!;

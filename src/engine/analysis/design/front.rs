@@ -67,7 +67,7 @@ impl Task<'_> {
         watch: &Watch,
     ) -> Option<Known> {
         /// Sizes of the simplices, in units of the numbers.
-        const SIZES: [f64; 3] = [5e-2, 1e-3, 1e-6];
+        const SIZES: [f64; 2] = [5e-2, 1e-4];
         /// Cost of a design beyond the bound, with how far it is beyond.
         const BEYOND: f64 = 1e30;
         let cost = |both: [f64; 2]| match (both[1 - one] - bound) / (1.0 + bound.abs()) {

@@ -155,6 +155,9 @@ impl Task<'_> {
         if all.found.iter().any(|of| of.finished) {
             all.found.retain(|of| of.finished);
         }
+        if all.interrupted {
+            return all;
+        }
         // those that are listed first to the last digits
         let rest = all.found.split_off(LISTED.min(all.found.len()));
         let first = std::mem::take(&mut all.found);
@@ -195,7 +198,8 @@ impl Task<'_> {
         };
         match known.iter_mut().find(|of| one(of)) {
             Some(of) => {
-                of.reached += 1;
+                of.reached += end.reached;
+                of.finished |= end.finished;
                 if end.squares < of.squares {
                     (of.at, of.squares) = (end.at, end.squares);
                 }

@@ -137,7 +137,8 @@ impl Closer<'_, '_> {
         let mut linear = match (&self.bundle.written, &mut self.built) {
             (Some(written), _) => {
                 let (bundle, storage) = (self.bundle, &mut self.storage);
-                return Some(bundle.closing_by(written, &self.numbers, (place, at), storage));
+                let at = (place, at);
+                return Some(bundle.linear_by(written, &self.numbers, at, true, storage));
             }
             (None, None) => return None,
             (None, Some(built)) => {

@@ -43,11 +43,9 @@ impl Bundle<'_> {
     pub(super) fn linear(&self, at: &Bundled) -> Option<Vec<Blocks>> {
         if let Some(written) = &self.written {
             let mut storage = Storage::default();
-            let each = at.configurations.iter().enumerate().map(|(k, place)| {
-                let mut linear = self.linear_by(written, &at.numbers, (k, place), &mut storage);
-                linear.impose(&self.exact(k));
-                linear
-            });
+            let each = at.configurations.iter().enumerate();
+            let each =
+                each.map(|place| self.linear_by(written, &at.numbers, place, false, &mut storage));
             return Some(each.collect());
         }
         let system = self.equations::<f64>(&at.numbers)?;

@@ -77,15 +77,14 @@ impl Program {
         }
     }
 
-    /// The values at some inputs, each row's and then its derivatives; row by row.
-    pub(super) fn values<'v, T: Number>(
-        &'v self,
-        inputs: &[T],
-        values: &'v mut Vec<T>,
-    ) -> impl ExactSizeIterator<Item = T> + Clone + 'v {
+    /// Evaluates it at some inputs.
+    pub(super) fn run<T: Number>(&self, inputs: &[T], values: &mut Vec<T>) {
         run(&self.operations, inputs, values);
-        let values = &*values;
-        self.places.iter().map(move |place| values[*place as usize])
+    }
+
+    /// A value of the last evaluation: of each row its own, then its derivatives.
+    pub(super) fn value<T: Number>(&self, values: &[T], place: usize) -> T {
+        values[self.places[place] as usize]
     }
 
     /// The rows at some inputs, one after another: each its value, then its derivatives by the unknowns and the numbers.

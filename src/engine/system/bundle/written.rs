@@ -66,80 +66,69 @@ impl Bundle<'_> {
         self
     }
 
-    /// The values of one configuration by a program.
-    fn values<'s>(
+    /// Runs a program of one configuration.
+    fn run(
         &self,
-        program: &'s Program,
+        program: &Program,
         numbers: &[f64],
         at: &Configuration<f64>,
-        storage: &'s mut Storage,
-    ) -> impl ExactSizeIterator<Item = f64> + Clone + 's {
+        storage: &mut Storage,
+    ) {
         let count = self.numbers.len();
         storage.inputs.clear();
         storage.inputs.extend(self.in_units(numbers));
         let size = count + at.joints.len() + 7 * at.platforms.len();
         storage.inputs.resize(size, 0.0);
         coordinates(at, &mut storage.inputs[count..]);
-        program.values(&storage.inputs, &mut storage.values)
+        program.run(&storage.inputs, &mut storage.values);
     }
 
-    /// Closures and targets of one configuration, linearised by its program.
+    /// Closures of one configuration, and what it must meet as further ones, linearised by its program; with targets and derivatives
+    /// by the shared numbers unless it is only closed.
     pub(super) fn linear_by(
         &self,
         written: &Written,
         numbers: &[f64],
         (k, at): (usize, &Configuration<f64>),
+        closing: bool,
         storage: &mut Storage,
     ) -> Blocks {
-        let (unknowns, count) = (written.shape.unknowns().len(), self.numbers.len());
-        let (rows, width) = (written.shape.rows(), 1 + unknowns + count);
-        let values = self.values(&written.places[k].all, numbers, at, storage);
-        let targets = self.targets.get(&k).into_iter().flatten().enumerate();
-        let targets = targets.map(|(i, target)| {
-            let mut row = values.clone().skip((rows + i) * width);
-            let left = target.rest(self.mechanism, row.next().unwrap_or(f64::NAN));
-            let slopes = row.take(width - 1).map(|x| x * target.weight);
-            slopes.chain([left]).collect()
+        let place = &written.places[k];
+        let (program, count) = match closing {
+            true => (&place.closing, 0),
+            false => (&place.all, self.numbers.len()),
+        };
+        self.run(program, numbers, at, storage);
+        let (rows, unknowns) = (written.shape.rows(), written.shape.unknowns().len());
+        let width = 1 + unknowns + count;
+        let entry = |row: usize, target: Option<&Target>, i: usize| {
+            let x = program.value(&storage.values, row * width + i);
+            match target {
+                None => x,
+                Some(target) if i == 0 => target.rest(self.mechanism, x),
+                Some(target) => x * target.weight,
+            }
+        };
+        let targets = self.targets.get(&k).into_iter().flatten();
+        let targets = (rows..).zip(targets.filter(|of| of.exact || !closing));
+        let met = targets.clone().filter(|(_, of)| of.exact);
+        let met = met.map(|(row, of)| (row, Some(of)));
+        let closures = (0..rows).map(|row| (row, None)).chain(met);
+        let columns = |columns: Range<usize>| {
+            let column = |i: usize| closures.clone().map(move |(row, of)| entry(row, of, i));
+            columns.flat_map(column).collect()
+        };
+        let left = targets.filter(|(_, of)| !of.exact).map(|(row, of)| {
+            let slopes = (1..width).chain([0]);
+            slopes.map(|i| entry(row, Some(of), i)).collect()
         });
-        let targets = targets.collect();
-        let columns = |from: usize, to: usize| columns(values.clone(), rows, width, from..to);
         Blocks {
             unknowns,
             numbers: count,
-            closures: columns(0, 1),
-            by_unknowns: columns(1, 1 + unknowns),
-            by_numbers: columns(1 + unknowns, width),
-            targets,
-        }
-    }
-
-    /// The closures of one configuration and what it must meet, linearised without the shared numbers.
-    pub(super) fn closing_by(
-        &self,
-        written: &Written,
-        numbers: &[f64],
-        (k, at): (usize, &Configuration<f64>),
-        storage: &mut Storage,
-    ) -> Blocks {
-        let (rows, unknowns) = (written.shape.rows(), written.shape.unknowns().len());
-        let values = self.values(&written.places[k].closing, numbers, at, storage);
-        let width = 1 + unknowns;
-        let all = values.len() / width;
-        let mut closures = columns(values.clone(), all, width, 0..1);
-        let mut by_unknowns = columns(values, all, width, 1..width);
-        let targets = self.targets.get(&k).into_iter().flatten();
-        for (i, target) in (rows..).zip(targets.filter(|of| of.exact)) {
-            closures[i] = target.rest(self.mechanism, closures[i]);
-            let slopes = by_unknowns.iter_mut().skip(i).step_by(all);
-            slopes.for_each(|x| *x *= target.weight);
-        }
-        Blocks {
-            unknowns,
-            numbers: 0,
-            closures,
-            by_unknowns,
-            by_numbers: Vec::new(),
-            targets: Vec::new(),
+            closures: columns(0..1),
+            by_unknowns: columns(1..1 + unknowns),
+            by_numbers: columns(1 + unknowns..width),
+            targets: left.collect(),
         }
     }
 
@@ -151,14 +140,16 @@ impl Bundle<'_> {
         (k, at): (usize, &Configuration<f64>),
         storage: &mut Storage,
     ) -> Misfit {
-        let mut values = self.values(&written.places[k].values, numbers, at, storage);
-        let closures = values.by_ref().take(written.shape.rows());
+        let (program, rows) = (&written.places[k].values, written.shape.rows());
+        self.run(program, numbers, at, storage);
+        let value = |row: usize| program.value(&storage.values, row);
         let mut misfit = Misfit {
-            equations: closures.fold(0.0, |sum, x| sum + x * x),
+            equations: (0..rows).map(value).fold(0.0, |sum, x| sum + x * x),
             squares: 0.0,
         };
-        for (value, target) in values.zip(self.targets.get(&k).into_iter().flatten()) {
-            let left = target.rest(self.mechanism, value);
+        let targets = self.targets.get(&k).into_iter().flatten();
+        for (row, target) in (rows..).zip(targets) {
+            let left = target.rest(self.mechanism, value(row));
             match target.exact {
                 true => misfit.equations += left * left,
                 false => misfit.squares += left * left,
@@ -192,17 +183,6 @@ impl Bundle<'_> {
     fn in_units<'a>(&'a self, numbers: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         numbers.iter().zip(&self.sizes).map(|(x, size)| x / size)
     }
-}
-
-/// Columns of values that are given row by row.
-fn columns(
-    values: impl Iterator<Item = f64> + Clone,
-    rows: usize,
-    width: usize,
-    columns: Range<usize>,
-) -> Vec<f64> {
-    let column = |i: usize| values.clone().skip(i).step_by(width).take(rows);
-    columns.flat_map(column).collect()
 }
 
 impl Target {

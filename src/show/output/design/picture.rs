@@ -47,7 +47,7 @@ pub fn front(report: &DesignReport) -> Option<Canvas> {
             shown(of.second_goal?, second.unit),
         ))
     };
-    let points: Vec<(f64, f64)> = good.filter_map(at).collect();
+    let points = good.filter_map(at);
     Some(stacked(&[LineChart {
         title: format!(
             "{}: designs of which none is beaten in both",
@@ -55,7 +55,6 @@ pub fn front(report: &DesignReport) -> Option<Canvas> {
         ),
         x: axis(first),
         y: axis(second),
-        series: vec![Series::new("front", points.clone())],
         marks: vec![Series::new("design", points)],
         ..LineChart::default()
     }]))
