@@ -845,10 +845,13 @@ fn of_two_goals_none_is_beaten_in_both() {
         let of = &report.designs[i];
         (of.goal.unwrap(), -of.second_goal.unwrap())
     };
-    // the second goes from 4 to 0 by equal steps
+    // the second goes from 4 to 0 by equal steps; where a square is least to ten digits its root is to five
+    let ((least, most), (_, zero)) = (goals(0), goals(4));
+    assert!(least < 1e-10 && (most - 4.0).abs() < 1e-4 && zero < 1e-10);
     for i in 0..5 {
         let (first, second) = goals(i);
-        assert!((second - (4.0 - i as f64)).abs() < 1e-6, "{second}");
+        let expected = zero + (most - zero) * (4 - i) as f64 / 4.0;
+        assert!((second - expected).abs() < 1e-6, "{second}");
         assert!(
             (first.max(0.0).sqrt() + second.max(0.0).sqrt() - 2.0).abs() < 1e-3,
             "{first}"
