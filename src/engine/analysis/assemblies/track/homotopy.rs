@@ -1,5 +1,6 @@
 //! Straight-line homotopy between two members of a family.
 
+pub(crate) use super::member::{END, START};
 use super::member::{MemberEquations, MemberSegment};
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::geometry::{Quaternion, Vector3};
@@ -15,10 +16,6 @@ impl Family {
         Some(ParameterHomotopy::new(self, here, course))
     }
 }
-
-/// s at both ends of a way.
-pub(crate) const START: C = C::new(0.0, 0.0);
-pub(crate) const END: C = C::new(1.0, 0.0);
 
 /// A straight-line homotopy, s from 0 to 1, with storage for tracking.
 #[derive(Clone, Debug)]

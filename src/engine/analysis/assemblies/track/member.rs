@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
-use super::homotopy::{END, START};
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Dual, complex::norm};
 use crate::solve::Equations;
 use crate::system::{ConstantsCourse, System, Work};
+
+/// s at both ends of a way.
+pub(crate) const START: C = C::new(0.0, 0.0);
+pub(crate) const END: C = C::new(1.0, 0.0);
 
 /// The straight segment from one member to another: its start and the difference.
 #[derive(Clone, Debug)]
