@@ -2,7 +2,8 @@
 //!
 //! A mechanism is described as in a textbook: serial Denavit–Hartenberg chains, left when the closed mechanism is
 //! broken at some of its joints, and closures that restore those joints. linkwork assembles it, finds all its
-//! assemblies, and analyses mobility, velocities, forces, motion, singularities and workspace.
+//! assemblies, analyses mobility, velocities, forces, motion under loads, singularities and workspace, and finds dimensions for
+//! what a mechanism shall do.
 //!
 //! Load, ask, answer:
 //!
@@ -57,12 +58,15 @@ pub use analysis::{
     assembly::{AssemblyReport, AssemblySettings, Outcome},
     compare::{CompareReport, FormReport},
     convert::{Conversion, ConvertError, ConvertSettings, convert},
+    design::{Defect, DesignReport},
+    equilibrium::{EquilibriumReport, EquilibriumSettings},
     formulas::{FormulasReport, FormulasSettings},
     frames::{FramesReport, FramesSettings, frames},
     mobility::{BranchReport, Character, MobilityReport},
     overview::{Overview, overview},
     quantities::Motions,
     rounding::load,
+    simulation::{SimulationEnd, SimulationReport, SimulationSettings},
     singularities::{
         AlongReport, Crossing, Locus, LocusReport, SingularitiesReport, SingularitiesSettings,
         Singularity,
@@ -78,11 +82,11 @@ pub use analysis::{
 };
 #[doc(inline)]
 pub use ask::{
-    AskError, Demand, Item, Many, Mode, Points, Question, Remedy, Role, Solved, Steering, Store,
-    Study, StudyError, StudyRows, TableError, Value,
+    AskError, Demand, Design, DesignError, Item, Many, Mode, Points, Question, Remedy, Role,
+    Solved, Steering, Store, Study, StudyError, StudyRows, TableError, Value,
 };
 #[doc(inline)]
-pub use description::{Description, FileError, LoadError, Problem, ProblemKind};
+pub use description::{Description, DesignDescription, FileError, LoadError, Problem, ProblemKind};
 #[doc(inline)]
 pub use mechanism::{Configuration, Frame, Mechanism, Point, Quantity};
 #[doc(inline)]
