@@ -1654,7 +1654,7 @@ pub fn margin(u: &[f64; INPUTS], x: &[f64; STATE]) -> f64 {
 /// Jacobian decides: ‖J⁻¹(J(v, y) − J)‖ ≤ ½. Two assemblies for the same inputs differ by about 2.
 #[inline(never)]
 fn reach(u: &[f64; INPUTS], x: &[f64; STATE], v: &[f64; INPUTS], y: &[f64; STATE]) -> f64 {
-    const CURVATURE: f64 = 3.317874981152292;
+    const CURVATURE: f64 = 3.317874981152291;
     const LEAST: f64 = 1e-30;
     let (mut r, mut here) = ([0.0; EQUATIONS], [[0.0; STEPS]; EQUATIONS]);
     slopes(u, x, &mut r, &mut here);

@@ -139,7 +139,8 @@ fn a_home_closed_just_outside_its_limits_is_moved_inside() {
     let solved = answer(&["solve", &made]);
     for joint in ["crank", "rocker"] {
         let value = solved["joints"][joint].as_f64().unwrap();
-        assert!((-0.6..=0.0).contains(&value), "{joint} {value} {err}");
+        // inside but for the rounding of a solved configuration
+        assert!((-0.6..=1e-9).contains(&value), "{joint} {value} {err}");
     }
     let _ = [file, made].map(std::fs::remove_file);
 }

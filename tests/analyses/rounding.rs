@@ -389,3 +389,74 @@ fn an_axes_file_keeps_its_tolerance() {
     assert_eq!(axes.tolerance, again.tolerance);
     assert!(is_changed(&read(&text).1));
 }
+
+#[test]
+fn links_of_equal_length_in_a_drawing_are_equal() {
+    // crank and rocker of 60 mm, and a rocker 10 µm longer
+    let file = |rocker: f64| {
+        let across = [
+            0.939_692_620_785_908_4,
+            0.321_393_804_843_269_6,
+            0.116_977_778_440_511_0,
+        ];
+        let (u, v) = (
+            [
+                0.342_020_143_325_668_7,
+                -0.883_022_221_559_489,
+                -0.321_393_804_843_269_6,
+            ],
+            across,
+        );
+        let at = |x: f64, y: f64| [0, 1, 2].map(|i| 0.1 + u[i] * x + v[i] * y);
+        let n = [
+            u[1] * v[2] - u[2] * v[1],
+            u[2] * v[0] - u[0] * v[2],
+            u[0] * v[1] - u[1] * v[0],
+        ];
+        let pin = |name: &str, between: [&str; 2], point: [f64; 3]| {
+            let written = |of: [f64; 3]| format!("({:.6}, {:.6}, {:.6})", of[0], of[1], of[2]);
+            let other = [0, 1, 2].map(|i| point[i] + 0.02 * n[i]);
+            format!(
+                "\"{name}\": Revolute(through: ({}, {}), between: (\"{}\", \"{}\")),",
+                written(point),
+                written(other),
+                between[0],
+                between[1]
+            )
+        };
+        let pins = [
+            pin("crank", ["ground", "crank"], at(0.0, 0.0)),
+            pin("A", ["crank", "coupler"], at(0.036, 0.048)),
+            pin(
+                "B",
+                ["coupler", "rocker"],
+                at(0.1 - 0.8 * rocker, 0.6 * rocker),
+            ),
+            pin("rocker", ["ground", "rocker"], at(0.1, 0.0)),
+        ];
+        format!(
+            "Axes(version: 1, name: \"pins\", joints: {{ {} }})",
+            pins.concat()
+        )
+    };
+    let ratio = |text: &str| {
+        let (file, mechanism) = read(text);
+        assert!(is_changed(&mechanism));
+        assert_eq!(freedoms(&mechanism), Some(1));
+        let values: Vec<f64> = file.literals().iter().map(|of| of.value()).collect();
+        let points = values
+            .chunks_exact(3)
+            .map(|of| Vector3::new(of[0], of[1], of[2]));
+        let points: Vec<Vector3<f64>> = points.collect();
+        // across the axis of the crank: points on pins may lie beside one another
+        let axis = points[1] - points[0];
+        let axis = axis.scaled(1.0 / axis.norm());
+        let apart = |from: usize, to: usize| {
+            let way = points[2 * to] - points[2 * from];
+            (way - axis.scaled(way.dot(&axis))).norm()
+        };
+        apart(0, 1) / apart(3, 2)
+    };
+    assert!((ratio(&file(0.06)) - 1.0).abs() < 1e-14);
+    assert!((ratio(&file(0.06001)) - 1.0).abs() > 1e-4);
+}

@@ -261,7 +261,7 @@ const tests = {
     const taken = async (words, ending) => {
       const path = join(folder, `mechanisms_axes_hexaglide.${ending}`);
       await page.evaluate((words) => [...document.querySelectorAll("#panel button")].find((b) => b.textContent === words).click(), words);
-      for (let i = 0; i < 100 && !existsSync(path); i++) await new Promise((done) => setTimeout(done, 50));
+      for (let i = 0; i < 600 && !existsSync(path); i++) await new Promise((done) => setTimeout(done, 50));
       return readFileSync(path);
     };
     const svg = (await taken("SVG", "svg")).toString();

@@ -136,7 +136,9 @@ impl<'a> RoundedDirections<'a> {
             .filter(|value| **value > EXACT * largest)
             .count();
         let exact = strictly == rank && left <= EXACT;
-        if exact && !may_be_exact || left > SLACK * most + EXACT || rank == 0 {
+        // with values that a drawing means nothing may be left free: a structure, however exactly it closes
+        let stands = may_be_exact && rank == unknowns;
+        if exact && !may_be_exact || stands || left > SLACK * most + EXACT || rank == 0 {
             return None;
         }
         Some(RoundedDirections {
