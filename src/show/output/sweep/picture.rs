@@ -32,6 +32,8 @@ pub struct Picture {
     double_points: Vec<Triple>,
     /// Quantities without bound, by name, with the abscissa where they have none.
     unbounded: Vec<(String, Vec<f64>)>,
+    /// Curves of quantities that do not change but for rounding, with their values.
+    constant: Vec<(String, f64)>,
     course: DrawnCourse,
 }
 
@@ -98,6 +100,7 @@ impl Picture {
             what: "mode",
             double_points: Vec::new(),
             unbounded: Vec::new(),
+            constant: Vec::new(),
             course: DrawnCourse::of(points.iter().map(|named| named.point)),
         }
     }
@@ -195,9 +198,15 @@ impl Picture {
         self.scenes(mechanism).into_iter().map(panel).collect()
     }
 
-    /// Also marks where paths cross themselves, and breaks curves where they have no bound.
+    /// Also marks where paths cross themselves, breaks curves where they have no bound, and levels those that are constant.
     pub fn completed(&mut self, mechanism: &Mechanism, report: &MotionsReport) {
-        for of in report.motions.iter().flat_map(|motion| &motion.extremes) {
+        let all = report.motions.iter();
+        for (mode, of) in all.flat_map(|motion| motion.extremes.iter().map(|of| (motion.mode, of)))
+        {
+            if let Some(value) = of.constant {
+                let value = quantity::shown(value, of.unit);
+                self.constant.push((self.label(&of.name, mode), value));
+            }
             let abscissas = of.unbounded.iter().filter_map(|pole| {
                 let input = self.input?.coordinate;
                 let value = match input {

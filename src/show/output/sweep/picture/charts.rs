@@ -44,7 +44,7 @@ impl Picture {
         stacked(&charts)
     }
 
-    fn label(&self, name: &str, mode: Option<usize>) -> String {
+    pub(super) fn label(&self, name: &str, mode: Option<usize>) -> String {
         match mode {
             Some(mode) if self.motions.len() > 1 => format!("{name}, {} {mode}", self.what),
             _ => name.to_owned(),
@@ -104,6 +104,10 @@ impl Picture {
         };
         let mut heights = Vec::new();
         for series in &mut series {
+            let constant = self.constant.iter().find(|(of, _)| *of == series.label);
+            if let Some((_, value)) = constant {
+                series.points.iter_mut().for_each(|point| point.1 = *value);
+            }
             let poles = unbounded(&series.label);
             heights.extend(series.points.iter().map(|(_, y)| *y));
             if !poles.is_empty() {
