@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 use linkwork::analysis::design::Defect;
 use linkwork::ask::Design;
 use linkwork::description::{Description, DesignDescription};
+use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -350,6 +351,9 @@ fn checked(questions: std::ops::Range<u64>) -> [usize; 2] {
         let report = design.report(&Watch::none()).unwrap();
         let mut made = false;
         for design in &report.designs {
+            // its file loads
+            let file = Description::read(&design.file).unwrap();
+            assert!(Mechanism::new(&file).is_ok(), "{}", design.file);
             let (bar, places) = (question.read)(&design.values);
             // assembled in every position
             for at in &places {

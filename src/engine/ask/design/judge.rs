@@ -192,8 +192,9 @@ impl<'a> Judge<'a> {
         }
         let first = found.at.configurations.first();
         let values = first.into_iter().flat_map(|at| &at.joints);
-        for (joint, value) in description.joints.iter_mut().zip(values) {
-            joint.value.home = Entry::number(*value, 0..0);
+        // a search may have gone round many times
+        for (i, (joint, value)) in description.joints.iter_mut().zip(values).enumerate() {
+            joint.value.home = Entry::number(self.mechanism.as_given(i, *value), 0..0);
         }
         description.to_ron().unwrap_or_default()
     }
