@@ -202,7 +202,7 @@ impl Numbers<'_> {
             let steps = step.chunks_exact(3).zip(&slacks);
             for (joint, (step, slack)) in joints.iter_mut().zip(steps) {
                 if let Some(joint) = joint {
-                    joint.at = joint.at + Vector3::new(step[0], step[1], step[2]).scaled(*slack);
+                    joint.at += Vector3::new(step[0], step[1], step[2]).scaled(*slack);
                 }
             }
         }
