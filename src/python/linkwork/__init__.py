@@ -282,8 +282,8 @@ class Mechanism:
 
         ``input={"l1": (0.6, 0.8), ...}`` moves several together; ``of`` traces points, ``"left+0.5,0.2"``; ``report``
         adds quantities, ``"transmission, velocity:left"``; ``follow=True`` goes round dead points, and without input
-        along the whole curve. ``law`` and ``duration`` (s, or ``"500 ms"``) say how the input moves in time; ``certify=True``
-        shows by interval arithmetic that all rows lie on one branch.
+        along the whole curve. ``law`` and ``duration`` (s, or ``"500 ms"``) say how the input moves in time;
+        ``certify=True`` shows by interval arithmetic that all rows lie on one branch.
         """
         ranges = _given.mapping("input", input)
         if name is not None:
@@ -446,10 +446,12 @@ class Mechanism:
         """Dimensions with which it does what it shall: ``.designs``, best first, each with the text of its ``file``.
 
         ``vary`` gives ranges ``(least, greatest)``, listed values ``[0.1, 0.12]`` or expressions of others to
-        parameters and to further unknowns, and ``positions`` values of quantities or coordinates of points, ``{"theta1": 0.5, "coupler": (0.3, 0.2)}``; ``contains`` spans a box of positions.
-        ``motion``, ``at_least`` and ``at_most`` bound the motion, ``minimise`` and ``maximise`` improve a figure of it
-        such as ``"max(force:theta1)"``; of two such goals ``most`` designs are found of which none is beaten in both. Where there are as many targets as unknowns all designs are sought, otherwise
-        (or if ``approximate``) from random ``starts``.
+        parameters and to further unknowns, and ``positions`` values of quantities or coordinates of points,
+        ``{"theta1": 0.5, "coupler": (0.3, 0.2)}``; ``contains`` spans a box of positions. ``motion``, ``at_least``
+        and ``at_most`` bound the motion, ``minimise`` and ``maximise`` improve a figure of it such as
+        ``"max(force:theta1)"``; of two such goals ``most`` designs are found of which none is beaten in both. Where
+        there are as many targets as unknowns all designs are sought, otherwise (or if ``approximate``) from random
+        ``starts``.
         """
 
         def named(of: Mapping[str, Any]) -> str:
