@@ -1,5 +1,7 @@
 //! How far numbers are off that were computed from poses whose numbers are off by 1.
 
+use std::collections::HashMap;
+
 use crate::algebra::Measure;
 use crate::description::{Description, Entry, Literal};
 
@@ -19,6 +21,12 @@ pub(super) fn sizes(description: &Description, literals: &[Literal]) -> Vec<f64>
         _ => TURN,
     };
     let mut sizes: Vec<f64> = literals.iter().map(simple).collect();
+    let mut lengths: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (i, of) in literals.iter().enumerate() {
+        if of.measure == Measure::Length {
+            lengths.entry(&of.place).or_default().push(i);
+        }
+    }
     let size = |of: &Entry| of.expression.fixed_value().unwrap_or(0.0);
     for chain in &description.chains {
         let rows = &chain.value.rows;
@@ -34,12 +42,8 @@ pub(super) fn sizes(description: &Description, literals: &[Literal]) -> Vec<f64>
             });
             let offset = normals.fold(SHIFT, f64::max);
             let place = format!("{} row {}", chain.name.value, number + 1);
-            let own = literals
-                .iter()
-                .enumerate()
-                .filter(|(_, of)| of.place == place);
-            let lengths = own.filter(|(_, of)| of.measure == Measure::Length);
-            for ((i, _), size) in lengths.zip([normal, offset]) {
+            let own = lengths.get(place.as_str()).into_iter().flatten();
+            for (&i, size) in own.zip([normal, offset]) {
                 sizes[i] = size;
             }
         }
