@@ -43,11 +43,12 @@ impl Mechanism {
     }
 
     pub(super) fn infer_cycles(&mut self) {
-        let revolute = |&joint: &usize| self.joints[joint].kind == JointKind::Revolute;
-        let turns = |joint: usize| turns_to_repeat(&self.dimensions, joint);
-        let joints = 0..self.joints.len();
-        let cycles = joints.map(|joint| Some(joint).filter(revolute).and_then(turns));
-        self.cycles = cycles.collect();
+        let revolute = |joint: usize| self.joints[joint].kind == JointKind::Revolute;
+        let cycles = turns_to_repeat(&self.dimensions, self.joints.len());
+        let cycles = cycles.into_iter().enumerate();
+        self.cycles = cycles
+            .map(|(joint, turns)| turns.filter(|_| revolute(joint)))
+            .collect();
     }
 
     /// The mechanism with joints that go as far as the links let them.
@@ -136,17 +137,26 @@ impl Mechanism {
     }
 }
 
-/// Number of turns of a joint after which everything that it turns is where it was, if it turns it by fractions.
-pub fn turns_to_repeat(dimensions: &Dimensions<f64>, joint: usize) -> Option<f64> {
+/// Number of turns of each joint after which everything that it turns is where it was; `None` where a ratio is no
+/// fraction or a relation is not linear.
+pub fn turns_to_repeat(dimensions: &Dimensions<f64>, joints: usize) -> Vec<Option<f64>> {
     /// Gears have some dozen teeth.
     const MOST: u32 = 120;
-    let mut relations = dimensions.closures.iter().flat_map(|c| &c.relation);
-    if relations.any(|relation| relation.joints.contains(&joint)) {
-        return None;
+    let mut ratios = vec![Vec::new(); joints];
+    for row in dimensions.chains.iter().flat_map(|chain| &chain.rows) {
+        for &(joint, ratio) in &row.turn.0 {
+            ratios[joint].push(ratio);
+        }
     }
-    let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
-    let ratios: Vec<f64> = rows.map(|row| row.turn.coefficient(joint)).collect();
     let whole = |x: f64| (x - x.round()).abs() <= SOLVED * x.abs();
-    let mut turns = (1..=MOST).map(f64::from);
-    turns.find(|n| ratios.iter().all(|ratio| whole(n * ratio)))
+    let turns = |of: &Vec<f64>| {
+        let mut turns = (1..=MOST).map(f64::from);
+        turns.find(|n| of.iter().all(|ratio| whole(n * ratio)))
+    };
+    let mut turns: Vec<Option<f64>> = ratios.iter().map(turns).collect();
+    let relations = dimensions.closures.iter().flat_map(|c| &c.relation);
+    for &joint in relations.flat_map(|relation| relation.joints.iter()) {
+        turns[joint] = None;
+    }
+    turns
 }

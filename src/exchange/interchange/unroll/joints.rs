@@ -1,12 +1,12 @@
 //! The variables of a mechanism, and the joints that follow them.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::Unroller;
 use crate::algebra::Expression;
 use crate::description::{Entry, JointDescription, Named, Role};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::BodyMotion;
+use crate::interchange::tree::{BodyMotion, TreeJoint};
 
 impl Unroller<'_> {
     /// constant + Σ coefficient · joint in terms of variables: joints that follow are replaced by their leaders.
@@ -103,22 +103,24 @@ impl Unroller<'_> {
     /// The joint variables: those of joints that lead, within the limits of all that follow.
     pub(super) fn joints(&mut self) -> Vec<Named<JointDescription>> {
         let (mut joints, mut moved) = (Vec::new(), Vec::new());
+        let mut coupled: HashMap<&str, Vec<(&TreeJoint, f64, f64)>> = HashMap::new();
+        for follower in self.tree.joints() {
+            let following = self.followers.get(&follower.name);
+            if let Some([(leader, factor)]) = following.map(|of| &of.terms[..])
+                && *factor != 0.0
+            {
+                let of = coupled.entry(leader).or_default();
+                of.push((follower, self.followers[&follower.name].offset, *factor));
+            }
+        }
         for joint in self.tree.joints() {
             let Some(variable) = self.variables.get(&joint.name) else {
                 continue;
             };
             let (mut limits, mut actuated) = (joint.limits, joint.actuated);
             let mut angle = joint.motion == BodyMotion::Turn;
-            let coupled = self.tree.joints().filter_map(|follower| {
-                let following = self.followers.get(&follower.name)?;
-                match &following.terms[..] {
-                    [(leader, factor)] if *leader == joint.name && *factor != 0.0 => {
-                        Some((follower, following.offset, *factor))
-                    }
-                    _ => None,
-                }
-            });
-            for (follower, offset, factor) in coupled {
+            let coupled = coupled.get(joint.name.as_str()).into_iter().flatten();
+            for &(follower, offset, factor) in coupled {
                 actuated |= follower.actuated;
                 angle |= follower.motion == BodyMotion::Turn;
                 if let Some((low, high)) = follower.limits {

@@ -77,14 +77,16 @@ impl Coordinates {
         let joints = held_joints.into_iter().map(Input::Joint);
         let poses = held_poses.into_iter().map(Input::Pose);
         let dimensions = mechanism.dimensions();
-        let turns: Vec<Option<f64>> = (0..mechanism.joints().len())
-            .map(|j| turns_to_repeat(dimensions, j).filter(|_| !slides(dimensions, j)))
+        let repeating = turns_to_repeat(dimensions, mechanism.joints().len());
+        let turns = repeating.iter().enumerate();
+        let turns: Vec<Option<f64>> = turns
+            .map(|(j, turns)| turns.filter(|_| !slides(dimensions, j)))
             .collect();
         let winding = free_joints.iter().copied();
         let winding = winding.filter(|&j| !is_algebraic(mechanism, j));
         let (screws, incommensurate) = winding
             .filter(|&j| mechanism.joints()[j].kind.is_angle() && turns[j].is_none())
-            .partition(|&j| turns_to_repeat(dimensions, j).is_some());
+            .partition(|&j| repeating[j].is_some());
         Coordinates {
             legs: legs(&free_joints, &System::new(dimensions, held)),
             free_joints,
