@@ -64,7 +64,6 @@ fn mechanisms() -> Vec<String> {
 #[test]
 fn every_shipped_mechanism_is_checked_solved_and_compared() {
     for file in mechanisms() {
-        answer(&["check", &file]);
         assert_eq!(
             json(&["check", &file])["linkwork"],
             env!("CARGO_PKG_VERSION")
@@ -73,7 +72,6 @@ fn every_shipped_mechanism_is_checked_solved_and_compared() {
         let special = SINGULAR.iter().any(|name| file.ends_with(name));
         let outcome = if special { "singular" } else { "converged" };
         assert_eq!(json(&["solve", &file])["outcome"], outcome, "{file}");
-        answer(&["compare", &file]);
         assert_eq!(json(&["compare", &file])["agree"], true, "{file}");
     }
 }
@@ -910,7 +908,7 @@ fn rounding_beside_large_forces_is_printed_as_zero() {
 #[test]
 fn the_line_of_progress_never_counts_beyond_its_total() {
     let program = linkwork().get_program().to_owned();
-    let map = "workspace mechanisms/planar_3rpr.ron --grid 150 --hold platform.yaw=0.1 \
+    let map = "workspace mechanisms/planar_3rpr.ron --grid 70 --hold platform.yaw=0.1 \
                --map platform.x=-2..3 --map platform.y=-2..3";
     let watched = format!("{} {map}", program.display());
     let mut terminal = Command::new("script");

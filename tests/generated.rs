@@ -114,7 +114,7 @@ fn rust_program(folder: &Path, main: &str) -> PathBuf {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     compiled(
         Command::new(rustc)
-            .args(["--edition=2021", "-Copt-level=1", "-Dwarnings", "-o"])
+            .args(["--edition=2021", "-Copt-level=0", "-Dwarnings", "-o"])
             .arg(&program)
             .arg(&source),
     );

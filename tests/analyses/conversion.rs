@@ -169,7 +169,9 @@ fn closed_forms_agree_in_the_other_convention() {
             samples: 3,
             ..CompareSettings::default()
         };
-        for to in Convention::ALL {
+        // a file by coordinates says none, and has both
+        let own = description.convention.as_ref().map(|of| of.value);
+        for to in Convention::ALL.into_iter().filter(|to| Some(*to) != own) {
             let conversion = in_convention(&mechanism, &description, to);
             let new = Mechanism::new(&conversion.description).unwrap();
             let report = compare(&new, &settings, &Watch::none());

@@ -153,7 +153,7 @@ fn compare(path: &Path, seed: u64, store: Kept) -> usize {
 #[test]
 fn every_command_numbers_modes_of_every_shipped_file_alike() {
     for path in shipped() {
-        for seed in 1..=3 {
+        for seed in 1..=2 {
             // every mode begins with the same search
             let solutions = compare(&path, seed, Kept::default());
             if solutions > MANY {

@@ -399,7 +399,7 @@ fn with_a_wrong_sign(entry: &Entry) -> Vec<Entry> {
 fn refuted(description: &Description) -> bool {
     let mechanism = Mechanism::new(description).unwrap();
     let settings = CompareSettings {
-        samples: 12,
+        samples: 4,
         ..CompareSettings::default()
     };
     let report = compare(&mechanism, &settings, &Watch::none());
