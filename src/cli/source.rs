@@ -23,7 +23,7 @@ pub struct Source {
     /// Give a parameter another value: a number or an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
-    /// How far any number of the file may be off, e.g. --tolerance "0.01 mm"; otherwise half a unit of its last digit
+    /// The most by which any number of the file may be off, e.g. --tolerance "0.01 mm"; otherwise half a unit of its last digit
     #[arg(long, value_name = "LENGTH")]
     tolerance: Option<String>,
     /// Largest file to read, in bytes: a guard against mistaken files

@@ -244,7 +244,7 @@ impl Question {
     }
 
     /// A demand on a joint in place of one on an output that follows it, at the values where the joint has these.
-    /// What is wrong with values is said when the question is asked.
+    /// Wrong values are refused when the question is asked.
     fn led(&self, demand: Demand) -> Demand {
         let Some(follower) = self.mechanism.follower(&demand.name) else {
             return demand;

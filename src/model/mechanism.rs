@@ -89,13 +89,13 @@ pub struct Mechanism {
     outputs: Arc<Vec<Quantity>>,
     homes: Arc<model::Homes>,
     loads: Arc<Loads>,
-    /// The same as the file has it.
+    /// As the file has it.
     loads_file: Arc<LoadsDescription>,
     /// The variables of closures that are not among the joints.
     closing: Arc<[ClosingJoint]>,
-    /// How many chains and closures the file has; those that make points, frames and closures joints come after them.
+    /// Numbers of chains and closures of the file; those that make points, frames and closures joints come after them.
     own: [usize; 2],
-    /// How many unknowns, and as many independent equations, were added to what the file has.
+    /// Number of unknowns, and of independent equations, added to those of the file.
     added_unknowns: usize,
     dimensions: Arc<Dimensions<f64>>,
     /// For each joint after how many turns every frame is where it was, if ever.

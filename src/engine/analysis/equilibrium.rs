@@ -203,7 +203,7 @@ pub fn equilibrium(
     Analysed::Closed(report)
 }
 
-/// What every start of a search shares.
+/// Data shared by all starts of a search.
 struct Start<'a> {
     mechanism: &'a Mechanism,
     load: &'a Load,

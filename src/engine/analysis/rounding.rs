@@ -135,7 +135,7 @@ enum FoundClosing {
     Nearest(Box<(Description, Mechanism, Rounded)>),
 }
 
-/// What closes the loops of a part exactly.
+/// Numbers that close the loops of a part exactly.
 enum ClosedPart {
     Undecided(f64),
     /// Literals with their values, and the largest gaps with those of the file.

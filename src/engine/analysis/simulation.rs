@@ -138,11 +138,11 @@ pub enum SimulationEnd {
 pub struct SimulationEvent {
     /// In s.
     pub time: f64,
-    /// What happened.
+    /// The event.
     pub event: Happened,
 }
 
-/// What can happen on the way.
+/// Kinds of events.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -190,7 +190,7 @@ pub enum Happened {
 pub struct EnergyBalance {
     /// Kinetic and potential energy at the start.
     pub start: f64,
-    /// The same at the end.
+    /// At the end.
     pub end: f64,
     /// Work of given forces, drives and dampers until then.
     pub supplied: f64,

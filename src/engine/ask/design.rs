@@ -33,7 +33,7 @@ const IMPROVED: usize = 6;
 pub struct Design {
     /// The mechanism.
     pub mechanism: Description,
-    /// What it shall do.
+    /// Its targets and requirements.
     pub asked: DesignDescription,
     /// Seed of the search.
     pub seed: u64,

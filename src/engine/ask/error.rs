@@ -304,7 +304,7 @@ pub enum Unmeasured {
     /// A speed or a load of a motion follows from what is not known before it is.
     #[error("it follows from {what} alone")]
     Follows {
-        /// What it may follow from.
+        /// What may give it.
         what: &'static str,
     },
     /// Nothing is loaded.

@@ -1,4 +1,4 @@
-//! What balances the loads of a moving mechanism: forces of its drives, and reactions.
+//! Balance of the loads of a moving mechanism: forces of its drives, and reactions.
 
 use super::bearing::{Bearings, Carried};
 use super::loaded::{Acting, Loaded, Moving};
@@ -157,7 +157,7 @@ impl<T: Factorable> Balance<T> {
         sum
     }
 
-    /// What acts, the forces at held coordinates and the reactions, where the motion was last factorised and its rates and
+    /// The loads, the forces at held coordinates and the reactions, where the motion was last factorised and its rates and
     /// accelerations are known. `responses` are its motions for a unit rate of each held coordinate, if wanted.
     pub fn at(
         &mut self,

@@ -197,7 +197,7 @@ impl Curve {
         }
     }
 
-    /// How far a coordinate is beyond a value, in rad or characteristic lengths.
+    /// Excess of a coordinate over a value, in rad or characteristic lengths.
     fn gap(&self, of: Coordinate, at: &Configuration<f64>, value: f64) -> f64 {
         match of {
             Coordinate::Joint(joint) => (at.joints[joint] - value) / self.unit(of),

@@ -13,7 +13,7 @@ use crate::number::{Dual, Number};
 use here::Here;
 use std::sync::Arc;
 
-/// What acts in a mechanism, ready to be evaluated. Built once; nothing allocates afterwards.
+/// The loads of a mechanism, ready to be evaluated. Built once; nothing allocates afterwards.
 #[derive(Clone, Debug)]
 pub struct Loaded<T = f64> {
     own: Arc<Loads>,

@@ -106,7 +106,7 @@ impl<'a> Question<'a> {
         Ok(self)
     }
 
-    /// The same question with some joints left to be found.
+    /// The question with some joints left to be found.
     pub(crate) fn letting_go(mut self, joints: &[usize]) -> Self {
         joints.iter().for_each(|&joint| self.joints[joint] = false);
         self.split_changed = true;

@@ -78,7 +78,7 @@ impl Heavy {
         least >= -ROUNDING * most.abs() && 2.0 * most <= moments.sum() + ROUNDING * most.abs()
     }
 
-    /// The same in a frame in which its own has this pose.
+    /// Mass and inertia in a frame in which its own has this pose.
     pub fn seen_from(&self, pose: &Pose<f64>) -> Self {
         Heavy {
             mass: self.mass,

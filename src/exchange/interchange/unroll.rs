@@ -259,7 +259,7 @@ impl Unroller<'_> {
         }
     }
 
-    /// Whether the common normal of the last axis of a link and the first of the next is far away beside the size of the
+    /// True if the common normal of the last axis of a link and the first of the next is far away beside the size of the
     /// chain in m, as the axes are parallel but for the digits of a file. A table along it would have offsets that the
     /// mechanism does not have.
     fn far_normal(&self, link: usize, next: usize, size: f64) -> bool {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Entry, Named, Spanned};
 use crate::algebra::{Expression, ParseError};
 
-/// What a mechanism shall do, and which of its numbers may vary. Everything is in the order of the file.
+/// Targets and requirements of a mechanism, and its numbers that may vary. Everything is in the order of the file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DesignDescription {
     /// Name of the design.
@@ -96,7 +96,7 @@ pub enum DesignPart {
     AtMost(usize),
     /// An output.
     Output(usize),
-    /// What shall be small or great.
+    /// The figure to be small or great.
     Goal(usize),
 }
 

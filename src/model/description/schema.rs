@@ -154,7 +154,7 @@ macro_rules! part_structures {
 macro_rules! load_structures {
     ($made:ident) => {
         $made! {
-            /// What acts in a mechanism: weight and inertia of bodies, springs, forces, friction.
+            /// Loads of a mechanism: weight and inertia of bodies, springs, forces, friction.
             #[derive(Default)]
             LoadsDescription = part "Loads", "loads" {
                 /// The acceleration of free fall (m/s²), in ground.

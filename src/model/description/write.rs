@@ -69,7 +69,7 @@ impl<S: Serializer> WrittenFields<S> {
     }
 }
 
-/// How structures are written.
+/// Writing of structures.
 macro_rules! writable {
     ($($(#[$about:meta])* $name:ident = $form:ident $($by:ident)? $word:literal, $said:literal {
         $($(#[$doc:meta])* $field:ident: $type:ty = $key:tt $(as $expected:expr)?,)+

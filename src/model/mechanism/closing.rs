@@ -30,7 +30,7 @@ use crate::number::Number;
 pub struct ClosingJoint {
     /// Its name: that of the closure, with `_turn` and `_slide` or `_1` and `_2` where the joint has two.
     pub name: String,
-    /// Whether it turns or slides.
+    /// Rotation or translation.
     pub kind: JointKind,
     /// The index of the closure.
     pub closure: usize,
@@ -114,7 +114,7 @@ impl Mechanism {
         ClosingValues::new(self).at(at)
     }
 
-    /// The same mechanism with the closing joint of that name among its last joints, passive and without limits; `None`
+    /// The mechanism with the closing joint of that name among its last joints, passive and without limits; `None`
     /// if there is none.
     pub fn with_closing_joint(&self, name: &str) -> Option<Mechanism> {
         let named = self.closing.iter().find(|of| of.name == name)?;
@@ -223,7 +223,7 @@ impl Mechanism {
         opened.frames[0] = tip;
     }
 
-    /// The same mechanism with every closure as the file writes it.
+    /// The mechanism with every closure as the file writes it.
     pub fn as_written(&self) -> Mechanism {
         let mut written = self.clone();
         for closure in Arc::make_mut(&mut written.closures) {
@@ -235,7 +235,7 @@ impl Mechanism {
         written.remeasured(self.characteristic_length())
     }
 
-    /// The same mechanism with dimensions that belong to its parts, and a characteristic length in m.
+    /// The mechanism with dimensions that belong to its parts, and a characteristic length in m.
     pub(super) fn remeasured(mut self, length: f64) -> Mechanism {
         let values: Vec<f64> = self.parameters.iter().map(|of| of.value).collect();
         let dimensions = self.dimensions_over(&values);

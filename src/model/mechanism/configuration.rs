@@ -101,7 +101,7 @@ impl<T: Copy> Configuration<T> {
         self.joints.iter().copied().chain(poses)
     }
 
-    /// The same, to be changed.
+    /// As above, by mutable reference.
     pub fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
         let poses = self.platforms.iter_mut();
         let poses =

@@ -176,12 +176,12 @@ impl Mechanism {
         self.tolerance
     }
 
-    /// What the rounding of its numbers means, if it was looked at and means anything.
+    /// The effect of the rounding of its numbers, if it was looked at and has one.
     pub fn rounding(&self) -> Option<&Rounding> {
         self.rounding.as_deref()
     }
 
-    /// The same mechanism with what the rounding of its numbers means.
+    /// The mechanism with the effect of the rounding of its numbers.
     pub fn with_rounding(self, rounding: Rounding) -> Self {
         let rounding = Some(Arc::new(rounding));
         Mechanism { rounding, ..self }

@@ -6,7 +6,7 @@ use super::{Measured, Point};
 use crate::algebra::Expression;
 use crate::number::Number;
 
-/// What acts in a mechanism, in kg, N, m, rad and s.
+/// Loads of a mechanism, in kg, N, m, rad and s.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loads {
     /// The acceleration of free fall in ground, in m/s².

@@ -1,4 +1,4 @@
-//! What a closure depends on.
+//! Joints and platforms on which a closure depends.
 
 use super::frames::joints_of;
 use super::model::Closure;

@@ -71,7 +71,7 @@ impl JointKind {
 }
 
 impl Joint {
-    /// How far beyond its limits a joint may be that stands at one: what a solver returns is off by rounding.
+    /// The most by which a joint at a limit may be beyond it: solutions are off by rounding.
     pub fn slack(&self) -> f64 {
         match self.limits {
             Some((low, high)) if !self.kind.is_angle() => ROUNDING * low.abs().max(high.abs()),

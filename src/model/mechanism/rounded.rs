@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What the rounding of a file's numbers means for its loops, where it means anything.
+/// The effect of the rounding of a file's numbers on its loops, where it has one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "rounding", rename_all = "snake_case")]
@@ -16,7 +16,7 @@ pub enum Rounding {
     },
 }
 
-/// What was changed so that loops close exactly.
+/// The changes by which loops close exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Rounded {
@@ -38,7 +38,7 @@ pub struct NumberChange {
     pub from: f64,
     /// The value with which the linkage closes.
     pub to: f64,
-    /// Whether it is a length (m); otherwise it is an angle (rad) or a part of a direction.
+    /// True for a length (m); otherwise it is an angle (rad) or a part of a direction.
     pub is_length: bool,
 }
 

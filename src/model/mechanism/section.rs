@@ -52,17 +52,17 @@ impl Mechanism {
         self.joints[joint].name.contains('.')
     }
 
-    /// How many chains and closures the file has: those that make points, frames and closures joints come after them.
+    /// Numbers of chains and closures of the file: those that make points, frames and closures joints come after them.
     pub fn own_parts(&self) -> [usize; 2] {
         self.own
     }
 
-    /// How many unknowns and equations, of equal number and independent, make points, frames and closures joints.
+    /// Number of unknowns, and of independent equations, that make points, frames and closures joints.
     pub fn added_unknowns(&self) -> usize {
         self.added_unknowns
     }
 
-    /// Whether a body is one that the file does not have: a slide of a point, or a link in front of a closure.
+    /// True for a body that the file does not have: a slide of a point, or a link in front of a closure.
     pub fn is_added(&self, body: Body) -> bool {
         matches!(body, Body::Link { chain, .. } if chain >= self.own[0])
     }

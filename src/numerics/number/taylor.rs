@@ -17,7 +17,7 @@ pub struct Taylor {
 const TERMS: usize = 6;
 
 impl Taylor {
-    /// What may be anything.
+    /// A value that may be anything.
     pub const UNBOUNDED: Self = Taylor {
         terms: [0.0; TERMS],
         rest: f64::INFINITY,

@@ -71,7 +71,7 @@ impl<T: Field> Echelon<T> {
         echelon
     }
 
-    /// What is left after combinations are subtracted.
+    /// The remainder after combinations are subtracted.
     pub fn reduced(&self, mut row: Combination<T>) -> Combination<T> {
         let mut at = 0;
         while let Some((column, factor)) = row.entries.get(at) {

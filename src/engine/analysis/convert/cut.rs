@@ -34,7 +34,7 @@ struct RowPlace {
     /// Index of its row, from 0.
     row: usize,
     slides: bool,
-    /// What the variable turns or slides by for a unit.
+    /// Rotation or translation for a unit of the variable.
     factor: f64,
 }
 

@@ -165,7 +165,7 @@ pub(super) struct PointsWay {
     from: Moves,
     rates: Moves,
     rows: SideRows<C>,
-    /// What cancels the residual, and dx/ds.
+    /// The step that cancels the residual, and dx/ds.
     steps: [[C; SIZE]; 2],
 }
 

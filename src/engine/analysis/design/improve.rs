@@ -7,7 +7,7 @@ use crate::number::tolerance::SAME;
 use crate::solve::{LeastSquares, LevenbergMarquardt, Watch, each, simplex};
 use crate::system::{Bundle, Bundled};
 
-/// What a design costs; `None` for one that is none.
+/// Cost of a design; `None` for one that is none.
 pub type Cost<'a> = dyn Fn(&FoundEnd) -> Option<f64> + Sync + 'a;
 
 impl Task<'_> {

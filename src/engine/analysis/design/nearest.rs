@@ -1,4 +1,4 @@
-//! What comes nearest to targets that nothing meets.
+//! Dimensions nearest to targets that nothing meets.
 
 use super::report::{Deviation, Nearest};
 use super::search::Task;
@@ -6,7 +6,7 @@ use crate::solve::Watch;
 use crate::system::Target;
 
 impl Task<'_> {
-    /// What comes nearest to the targets from a few random starts.
+    /// Dimensions nearest to the targets from a few random starts.
     pub fn nearest(&self, watch: &Watch) -> Option<Nearest> {
         const STARTS: usize = 24;
         let few = Task {

@@ -25,7 +25,7 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// What is left of a target.
+    /// Residual of a target.
     pub fn of(target: &Target, deviation: f64) -> Self {
         Deviation {
             position: target.configuration + 1,
@@ -160,7 +160,7 @@ pub struct Design {
     pub sensitivities: Vec<f64>,
     /// Defects; none for a design that does what it shall.
     pub defects: Vec<Defect>,
-    /// How the driving joint moves.
+    /// Motion of the driving joint.
     pub driver: Moves,
     /// Number of starts that led to it.
     pub reached: usize,
@@ -186,7 +186,7 @@ pub struct Cognate {
     pub design: Option<usize>,
 }
 
-/// What comes nearest to targets that no design meets.
+/// The design nearest to targets that none meets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Nearest {
@@ -221,7 +221,7 @@ pub struct DesignReport {
     pub driver: Option<String>,
     /// Different designs: first those without defects, each group by its sum of squares.
     pub designs: Vec<Design>,
-    /// What is improved.
+    /// The figure that is improved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
     /// What is improved beside it: of the designs none is beaten in both.
@@ -238,10 +238,10 @@ pub struct DesignReport {
     /// Counts of an exact synthesis, where there are as many targets as unknowns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exact: Option<Exact>,
-    /// What comes nearest where no exact solution is real and in the ranges.
+    /// The nearest design where no exact solution is real and in the ranges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nearest: Option<Nearest>,
-    /// Why not all exact solutions were sought where there are as many targets as unknowns.
+    /// The reason for which not all exact solutions were sought where there are as many targets as unknowns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_all: Option<NotAll>,
     /// Number of random starts from which a search ran.

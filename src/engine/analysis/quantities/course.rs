@@ -45,7 +45,7 @@ pub(crate) struct StretchPiece {
     works: Vec<[f64; WORK_TERMS]>,
 }
 
-/// How far a polynomial is that of a name on a piece.
+/// Deviation of a polynomial from the quantity on a piece.
 #[derive(Clone, Copy, PartialEq)]
 enum Fitted {
     /// As near as values are known.

@@ -13,7 +13,7 @@ pub struct Snapped {
     pub mechanism: String,
     /// The text of the file: tables or joint coordinates, as it was given.
     pub file: String,
-    /// What the rounding of the numbers means; `None` if nothing depends on it.
+    /// The effect of the rounding of the numbers; `None` if there is none.
     pub rounding: Option<Rounding>,
 }
 

@@ -5,7 +5,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Equations;
 use crate::system::{Bundle, Bundled, System, Work};
 
-/// Where directions begin that rounding may have closed, and how many equations resist the others.
+/// The first direction that rounding may have closed, and the number of equations that resist the others.
 pub(super) struct RoundedDirections<'a> {
     pub bundle: &'a Bundle<'a>,
     file: &'a [f64],
@@ -29,7 +29,7 @@ const STRIDE: f64 = 0.2;
 /// numbers that differ little from one configuration to the next are told apart.
 const STEPS: [usize; 2] = [16, 6];
 
-/// What rounding leaves open and closes, beside the sum of all roundings in a row: the second is larger where the closures
+/// Amounts that rounding leaves open and closes, beside the sum of all roundings in a row: the second is larger where the closures
 /// are badly conditioned.
 const SLACK: f64 = 10.0;
 

@@ -26,7 +26,7 @@ pub struct DrawnDesign {
 }
 
 impl Design {
-    /// What a picture of a design shows; `None` for one that does not assemble.
+    /// The contents of a picture of a design; `None` for one that does not assemble.
     pub fn drawn(&self, design: &design::Design, watch: &Watch) -> Option<DrawnDesign> {
         let description = Description::read(&design.file).ok()?;
         let mechanism = Mechanism::new(&description).ok()?;

@@ -219,7 +219,7 @@ fn one_argument(text: &str) -> bool {
 }
 
 impl Observed {
-    /// What a motion of some duration shows.
+    /// Values over a motion of some duration.
     pub fn of(extremum: &Extremum, duration: f64) -> Self {
         let all = extremum.unbounded.is_empty() && !extremum.at_least;
         let constant = extremum.constant;
@@ -241,7 +241,7 @@ impl Observed {
         }
     }
 
-    /// What a value in one position shows.
+    /// The value in one position.
     pub fn here(value: Option<f64>) -> Self {
         Observed {
             duration: 1.0,

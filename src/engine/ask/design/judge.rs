@@ -43,7 +43,7 @@ struct FigureBound {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdict {
     pub defects: Vec<Defect>,
-    /// How the driving joint moves.
+    /// Motion of the driving joint.
     pub moves: Moves,
     /// The value of each goal, unless it is not determined everywhere; none for a design with defects.
     pub goals: Vec<Option<f64>>,
@@ -199,7 +199,7 @@ impl<'a> Judge<'a> {
         description.to_ron().unwrap_or_default()
     }
 
-    /// What a design costs by each goal, or by none: the value of the goal, negative if it shall be great, or more than any goal
+    /// Costs of a design by each goal, or by none: the value of the goal, negative if it shall be great, or more than any goal
     /// where bounds are missed. `None` for other defects.
     pub fn costs(&self, found: &FoundEnd) -> Option<Vec<f64>> {
         self.costs_of(&self.verdict(found))

@@ -233,7 +233,7 @@ impl Read {
         all.unwrap_or_else(|_| vec![any; mechanism.parameters().len()])
     }
 
-    /// What is left of the targets.
+    /// The residuals of the targets.
     pub(super) fn missed(&self, bundle: &Bundle, found: &FoundEnd) -> Option<Vec<Deviation>> {
         let deviations = bundle.deviations(&found.at)?;
         let all = deviations.into_iter().zip(&self.tolerances);

@@ -47,7 +47,7 @@ impl Question {
         free.fold(self.about(more), |asked, name| asked.hold(name, "home"))
     }
 
-    /// What the question reports ([`Question::report`]) at rows of held values that were found by
+    /// The quantities that the question reports ([`Question::report`]) at rows of held values that were found by
     /// [`solve_many`](Self::solve_many) for the same names, and with `jacobian` the input–output Jacobian at each.
     ///
     /// # Errors

@@ -44,7 +44,7 @@ impl Question {
         }
     }
 
-    /// What is measured where what is held moves at these rates.
+    /// Quantities where held coordinates move at these rates.
     pub(in crate::ask) fn metered<'q>(
         &self,
         question: system::Question<'q>,

@@ -11,7 +11,7 @@ use crate::solve::Homotopy;
 pub struct PathForm<'c, 'b, 'm> {
     copies: &'c Copies<'b, 'm>,
     from: Vec<C>,
-    /// How the values change along the way, and the values where it was last evaluated.
+    /// Derivatives of the values along the way, and the values where it was last evaluated.
     rates: Vec<C>,
     values: Vec<C>,
     work: RowsWork,

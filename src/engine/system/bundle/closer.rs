@@ -131,7 +131,7 @@ struct Built {
 }
 
 impl Closer<'_, '_> {
-    /// What a configuration must meet, linearised there without the shared numbers.
+    /// Equations of a configuration, linearised there without the shared numbers.
     fn linear(&mut self, place: usize, at: &Configuration<f64>) -> Option<Blocks> {
         let exact = self.bundle.exact(place);
         let mut linear = match (&self.bundle.written, &mut self.built) {

@@ -1,4 +1,4 @@
-//! What a load depends on at a configuration.
+//! Positions and rates at a configuration that loads depend on.
 
 use super::{LoadPlace, Loaded, Moving};
 use crate::geometry::Vector3;

@@ -37,7 +37,7 @@ words! {
         Sphere = "Sphere",
     }
 
-    /// What acts between bodies, at joints or on a body.
+    /// Forces between bodies, at joints or on a body.
     LoadKind {
         /// A spring, a damper or both, between two points or at a joint.
         Spring = "Spring",

@@ -4,7 +4,7 @@ use super::*;
 use crate::description::piece::{Piece, PieceShape};
 use crate::description::schema::{axes_structures, load_structures, part_structures};
 
-/// How structures are read.
+/// Reading of structures.
 macro_rules! readable {
     ($($(#[$about:meta])* $name:ident = $form:ident $($by:ident)? $word:literal, $said:literal {
         $($(#[$doc:meta])* $field:ident: $type:ty = $key:tt $(as $expected:expr)?,)+

@@ -78,7 +78,7 @@ impl Mechanism {
         Vec::new()
     }
 
-    /// What acts in the mechanism.
+    /// The loads of the mechanism.
     pub fn loads(&self) -> &Loads {
         &self.loads
     }

@@ -23,7 +23,7 @@ pub enum Carrier {
     Closure(usize),
 }
 
-/// What gives power to a mechanism.
+/// A source of power.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worker {
     /// All drives.
@@ -94,7 +94,7 @@ words! {
         Dy = "dy",
         /// Its z.
         Dz = "dz",
-        /// How far the body advances along the axis, in m/rad.
+        /// Advance of the body along the axis, in m/rad.
         Pitch = "pitch",
     }
 }

@@ -106,7 +106,7 @@ impl Varied {
         }
     }
 
-    /// How far its number is varied about its own.
+    /// Range by which its number is varied.
     pub fn spread(self, reach: f64) -> f64 {
         match self {
             Varied::Lengths { small, .. } => 0.4 * reach * (0.5 / small).max(1.0),

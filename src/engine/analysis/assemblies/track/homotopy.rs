@@ -135,7 +135,7 @@ impl ParameterHomotopy<'_> {
         )
     }
 
-    /// How far out a point is: its largest coordinate, or what an angle makes of lengths, for a rotation by φ grows as e^|Im φ|.
+    /// Size of a point: its largest coordinate, or what an angle makes of lengths, for a rotation by φ grows as e^|Im φ|.
     pub fn extent(&self, x: &[C]) -> f64 {
         let c = &self.family.coordinates;
         let angles = c.free_joints.iter().zip(x);

@@ -1,4 +1,4 @@
-//! What quantities do where branches cross: so near to one another there that rounding decides which is read.
+//! Quantities where branches cross: so near to one another there that rounding decides which is read.
 
 use std::ops::Range;
 

@@ -51,7 +51,7 @@ impl Course<'_> {
         self.passage.at(&self.stretches[stretch], part, from)
     }
 
-    /// What a meter reads at a part of a stretch, with the part of the time that is gone there.
+    /// Values of a meter at a part of a stretch, with the part of the time that is gone there.
     pub fn read<'a>(
         &mut self,
         meter: &'a mut Meter,

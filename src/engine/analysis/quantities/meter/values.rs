@@ -328,7 +328,7 @@ impl Meter<'_> {
         })
     }
 
-    /// What belongs to a held coordinate, of those in their order.
+    /// The part of a held coordinate, of those in their order.
     fn driving<T: Factorable>(&self, here: &KnownHere<T>, of: Coordinate, all: &[T]) -> Option<T> {
         let place = self.coordinates.iter().position(|known| *known == of)?;
         let own = *all.get(place)?;

@@ -17,7 +17,7 @@ pub(super) enum PairEnd {
     Pole(f64),
     /// At a crossing of paths, with the places from which all others go on.
     Crossing(Vec<Place<Configuration<C>>>),
-    /// Where no step leads on.
+    /// The place at which no step leads on.
     Lost(Configuration<C>),
     /// After so many steps that it was not followed further.
     GivenUp,

@@ -198,7 +198,7 @@ impl Judge<'_> {
         Some(all)
     }
 
-    /// What each figure sees in positions.
+    /// The values of each figure in positions.
     pub(super) fn at_positions(
         &self,
         mechanism: &Arc<Mechanism>,

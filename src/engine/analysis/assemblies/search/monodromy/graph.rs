@@ -7,7 +7,7 @@ use crate::analysis::assemblies::track::ParameterHomotopy;
 /// A member with what is known of its solutions.
 pub(super) struct GraphNode<'a> {
     pub member: Member,
-    /// How far out its inputs are.
+    /// Distance of its inputs from the origin.
     pub reach: f64,
     pub still: ParameterHomotopy<'a>,
     pub legwise: Vec<LegwiseSolutions>,
