@@ -2,7 +2,7 @@
 
 use clap::Args;
 use linkwork::analysis::overview::overview;
-use linkwork::output::tables;
+use linkwork::output::overview::latex;
 
 use super::format::{Format, readable};
 use super::source::Source;
@@ -31,7 +31,7 @@ impl Check {
         let overview = overview(&loaded.mechanism);
         let mut answer = loaded.answer(self.format, &overview)?;
         if self.latex {
-            answer.data = tables::latex(&overview, &loaded.mechanism.names_in_formulas());
+            answer.data = latex::tables(&overview, &loaded.mechanism.names_in_formulas());
         }
         Ok(answer)
     }

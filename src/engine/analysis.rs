@@ -1,5 +1,7 @@
 //! Analyses: each one function, one settings struct and one report. They print nothing.
 //!
+//! A new one is also a method of the question (`ask`), an answer in words (`output`) and a command (`cli`).
+//!
 //! All are independent of one another but `quantities`, which reads what `velocity`, `singularities` and `statics` make of a
 //! configuration over the motions of `sweep`.
 

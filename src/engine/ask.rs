@@ -189,11 +189,6 @@ impl Question {
         self.demand(Demand::new(Role::Wrench, frame, components))
     }
 
-    /// Applies a force or a moment written `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
-    pub fn wrench_text(self, frame: impl Into<String>, text: impl Into<String>) -> Self {
-        self.demand(Demand::new(Role::Wrench, frame, [text.into()]))
-    }
-
     /// Keeps generic solutions where they are found again.
     pub fn store(mut self, store: Arc<dyn Store>) -> Self {
         self.store = Some(store);

@@ -46,7 +46,6 @@ pub mod solver;
 pub mod statics;
 pub mod study;
 pub mod sweep;
-pub mod tables;
 pub mod velocity;
 #[cfg(feature = "cli")]
 pub mod workspace;

@@ -1,14 +1,14 @@
 //! The search for an assembled configuration: from the guess, then from random starts.
 
 mod closing;
-mod starts;
+mod random;
 mod way;
 
 pub use closing::{
     Analysed, AssemblySettings, Closed, GivenPose, Moved, NotClosed, TooLarge, WidestGap, close,
     moved, too_large,
 };
-pub use starts::{random_configuration, sampling_range};
+pub use random::{random_configuration, sampling_range};
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;

@@ -5,7 +5,7 @@ use serde::ser::{
     Serialize, SerializeStruct, SerializeStructVariant, SerializeTupleVariant, Serializer,
 };
 
-use super::schema::{axes_structures, load_structures, part_structures};
+use super::structures::{axes_structures, load_structures, part_structures};
 use super::*;
 
 impl Description {

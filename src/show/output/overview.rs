@@ -1,5 +1,7 @@
 //! Overview of a mechanism file, as a document, drawn as in a lecture.
 
+pub mod latex;
+
 use super::coordinates as given_coordinates;
 use super::document::{Document, Section, Table, TableOf};
 use super::quantity::{at, degrees, form, number, quantity, signed};

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::description::piece::{Piece, PieceShape};
-use crate::description::schema::{axes_structures, load_structures, part_structures};
+use crate::description::structures::{axes_structures, load_structures, part_structures};
 
 /// Reading of structures.
 macro_rules! readable {

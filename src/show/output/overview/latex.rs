@@ -1,14 +1,14 @@
 //! Denavit–Hartenberg tables as LaTeX.
 
-use super::formulas::{Notation, Script, upright};
 use crate::algebra::Expression;
 use crate::analysis::overview::{ChainOverview, EntryOverview, Overview, RowOverview};
 use crate::description::Convention;
+use crate::output::formulas::{Notation, Script, upright};
 use crate::system::FormulaNames;
 
 /// The tables of all chains, each a `tabular` between the rules of booktabs; base and tip of a chain stand above and
 /// below its table.
-pub fn latex(overview: &Overview, names: &FormulaNames) -> String {
+pub fn tables(overview: &Overview, names: &FormulaNames) -> String {
     let notation = Notation::new(names, Script::Latex);
     let name = overview.name.replace(char::is_control, " ");
     let head = format!("% {name}, by linkwork; needs booktabs and amsmath\n");
