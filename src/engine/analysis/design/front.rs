@@ -5,7 +5,7 @@ use crate::number::sorting::sort_by;
 use crate::number::tolerance::SAME;
 use crate::solve::Watch;
 
-/// What a design costs by two goals; `None` for one that is none.
+/// Costs of a design by two goals; `None` for one that is none.
 pub type Costs<'a> = dyn Fn(&FoundEnd) -> Option<[f64; 2]> + Sync + 'a;
 
 /// A design with its costs.

@@ -205,7 +205,7 @@ impl<'a> Judge<'a> {
         self.costs_of(&self.verdict(found))
     }
 
-    /// What a design costs, of several freedoms by a few places of its moves alone: a search judges many.
+    /// Costs of a design, of several freedoms by a few places of its moves alone: a search judges many.
     pub fn estimates(&self, found: &FoundEnd) -> Option<Vec<f64>> {
         let Some(held) = &self.held else {
             return self.costs(found);
