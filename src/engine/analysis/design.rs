@@ -16,6 +16,7 @@ mod nearest;
 mod pinned;
 mod report;
 mod search;
+mod starts;
 mod symmetry;
 
 pub use course::{DesignCourse, course};
