@@ -13,6 +13,7 @@ mod inspect;
 mod kinematics;
 mod letters;
 mod lift;
+mod linkage;
 mod loads;
 mod loops;
 mod model;
@@ -40,6 +41,7 @@ pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm,
 pub use follower::FollowingOutput;
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
+pub use linkage::{Connection, Connector, FundamentalLoop, Linkage};
 
 pub use loads::{Along, Friction, GivenEffort, GivenForce, GivenValue, Loads, Mass, Spring};
 pub use point::{NamedPoint, Point, PointError};

@@ -1,12 +1,10 @@
 //! The loops of a mechanism, and the joints in them.
 
-use std::collections::{BTreeMap, VecDeque};
-
 use super::neighbourhood::Neighbourhood;
 use super::twists::Twist;
 use crate::geometry::Vector3;
 use crate::linear::Decomposition;
-use crate::mechanism::{Body, ClosureKind, Configuration, Frame, Symbol};
+use crate::mechanism::{Body, ClosureKind, Configuration, Connector, Frame, Linkage, Symbol};
 use crate::system::Unknown;
 
 /// A loop: a closure and the two chains from it to the body where they part.
@@ -35,118 +33,64 @@ pub struct LoopPart {
     pub closure: bool,
 }
 
-/// The independent loops at a configuration, one for each closure that is not needed to reach a body.
+/// The independent loops at a configuration, one for each closure between bodies that are already connected.
 pub fn loops(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<MechanismLoop> {
-    let mut edges = rows(near, at);
-    edges.extend(closures(near, at));
-    // the tree takes links first, so that closures are what completes a loop
-    let mut parent: BTreeMap<Body, Option<(Body, usize)>> = BTreeMap::from([(Body::Ground, None)]);
-    let mut in_tree = vec![false; edges.len()];
-    let mut of_body: BTreeMap<Body, Vec<usize>> = BTreeMap::new();
-    for (e, edge) in edges.iter().enumerate() {
-        edge.bodies
+    let mechanism = near.mechanism();
+    let linkage = mechanism.linkage();
+    let mut parts = rows(near, at, &linkage);
+    parts.extend(closures(near, at));
+    let loops = linkage.loops().into_iter();
+    let with_motions = loops.map(|found| MechanismLoop {
+        closure: mechanism.closures()[found.closure].name.clone(),
+        bodies: found.bodies,
+        parts: found
+            .connections
             .iter()
-            .for_each(|&body| of_body.entry(body).or_default().push(e));
-    }
-    for with_closures in [false, true] {
-        let mut queue: VecDeque<Body> = parent.keys().copied().collect();
-        while let Some(body) = queue.pop_front() {
-            for &e in of_body.get(&body).into_iter().flatten() {
-                let edge = &edges[e];
-                if edge.closure && !with_closures || in_tree[e] {
-                    continue;
-                }
-                let [a, b] = edge.bodies;
-                let other = match body {
-                    _ if a == body => b,
-                    _ if b == body => a,
-                    _ => continue,
-                };
-                if let std::collections::btree_map::Entry::Vacant(entry) = parent.entry(other) {
-                    entry.insert(Some((body, e)));
-                    in_tree[e] = true;
-                    queue.push_back(other);
-                }
-            }
-        }
-    }
-    let way = |from: Body| {
-        let mut way = vec![(from, None)];
-        let mut body = from;
-        while let Some(Some((next, edge))) = parent.get(&body) {
-            way.push((*next, Some(*edge)));
-            body = *next;
-        }
-        way
-    };
-    let closing = (0..edges.len()).filter(|&e| edges[e].closure && !in_tree[e]);
-    closing
-        .map(|e| {
-            let [mut left, mut right] = edges[e].bodies.map(way);
-            while left.len() > 1 && right.len() > 1 {
-                let (a, b) = (left[left.len() - 2].0, right[right.len() - 2].0);
-                if a != b {
-                    break;
-                }
-                left.pop();
-                right.pop();
-            }
-            let down = left.iter().rev().filter_map(|(_, edge)| *edge);
-            let up = right.iter().filter_map(|(_, edge)| *edge);
-            let members = down.chain([e]).chain(up);
-            let bodies = left.iter().rev().chain(&right[..right.len() - 1]);
-            MechanismLoop {
-                closure: edges[e].names[0].clone(),
-                bodies: bodies.map(|(body, _)| *body).collect(),
-                parts: members.map(|e| edges[e].clone()).collect(),
-            }
-        })
-        .collect()
+            .map(|&part| parts[part].clone())
+            .collect(),
+    });
+    with_motions.collect()
 }
-
-/// The rows of the tables that contain a joint variable.
-fn rows(near: &Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> {
+/// The rows that move, with their motions.
+fn rows(near: &Neighbourhood, at: &Configuration<f64>, linkage: &Linkage) -> Vec<LoopPart> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let twists = near.frames();
     let placement = twists.placed(at);
     let places = twists.places();
-    let place = |frame: Frame| places.get(&frame).copied();
     let column = |joint: usize| near.system().place_of(Unknown::Joint(joint));
     let mut rates = vec![0.0; near.system().unknowns().len()];
-    let mut edges = Vec::new();
-    for (chain, part) in mechanism.chains().iter().enumerate() {
-        for (i, row) in part.rows.iter().enumerate() {
-            // a joint that is locked joins two bodies without a freedom
-            let all = row.joints();
-            let joints = all.iter().copied().filter(|&joint| column(joint).is_some());
-            let joints: Vec<usize> = joints.collect();
-            let [before, after] = [i, i + 1].map(|row| Frame::Link { chain, row });
-            let (Some(b), Some(a), false) = (place(before), place(after), all.is_empty()) else {
-                continue;
-            };
-            let relative = joints.iter().filter_map(|&joint| {
-                let column = column(joint)?;
-                rates[column] = 1.0;
-                let [a, b] = [a, b].map(|frame| {
-                    let twist = twists.twist(frame, &placement, &rates);
-                    twist.at_ground(&twists.origin(frame, &placement), length)
-                });
-                rates[column] = 0.0;
-                Some(std::array::from_fn(|k| a[k] - b[k]))
+    let mut parts = Vec::new();
+    for connection in &linkage.connections {
+        let Connector::Row { chain, row } = connection.by else {
+            continue;
+        };
+        // a joint that is locked joins two bodies without a freedom
+        let all = mechanism.chains()[chain].rows[row].joints().into_iter();
+        let joints: Vec<usize> = all.filter(|&joint| column(joint).is_some()).collect();
+        let [b, a] = [row, row + 1].map(|row| places[&Frame::Link { chain, row }]);
+        let relative = joints.iter().filter_map(|&joint| {
+            let column = column(joint)?;
+            rates[column] = 1.0;
+            let [a, b] = [a, b].map(|frame| {
+                let twist = twists.twist(frame, &placement, &rates);
+                twist.at_ground(&twists.origin(frame, &placement), length)
             });
-            edges.push(LoopPart {
-                bodies: [before, after].map(|frame| mechanism.body(frame)),
-                twists: relative.collect(),
-                names: (joints.iter())
-                    .map(|&joint| mechanism.joints()[joint].name.clone())
-                    .collect(),
-                joints,
-                closure: false,
-            });
-        }
+            rates[column] = 0.0;
+            Some(std::array::from_fn(|k| a[k] - b[k]))
+        });
+        let names = joints
+            .iter()
+            .map(|&joint| mechanism.joints()[joint].name.clone());
+        parts.push(LoopPart {
+            bodies: connection.bodies,
+            twists: relative.collect(),
+            names: names.collect(),
+            joints,
+            closure: false,
+        });
     }
-    edges
+    parts
 }
 
 /// The closures, each with the motions it does not resist.
