@@ -49,7 +49,7 @@ fn said(why: Unreached) -> &'static str {
     }
 }
 
-type Columns<'py> = Vec<(String, Bound<'py, PyAny>)>;
+type NamedArrays<'py> = Vec<(String, Bound<'py, PyAny>)>;
 
 create_exception!(
     linkwork,
@@ -201,7 +201,7 @@ impl PythonMechanism {
         what: &str,
         given: &Bound<'py, PyDict>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(PythonReport, Columns<'py>)> {
+    ) -> PyResult<(PythonReport, NamedArrays<'py>)> {
         let asked = GivenQuestion::new(self.mechanism.clone(), given)?;
         let long = what != "solve" || asked.settings.numbered;
         let answer = watched(py, progress, long, |watch| {

@@ -88,7 +88,7 @@ impl Forces {
 }
 
 /// An analysis with its own options.
-pub trait Analysis: Args {
+pub trait AnalysisArgs: Args {
     /// True if its answer can be rows.
     const ROWS: bool = false;
 
@@ -98,7 +98,7 @@ pub trait Analysis: Args {
 
 // a command that asks a question of a mechanism; its help begins with the words of the analysis
 #[derive(Args)]
-pub struct Asking<A: Analysis> {
+pub struct Asking<A: AnalysisArgs> {
     #[command(flatten)]
     source: Source,
     #[command(flatten)]
@@ -117,7 +117,7 @@ fn formats(rows: bool) -> ValueParser {
     }
 }
 
-impl<A: Analysis> Asking<A> {
+impl<A: AnalysisArgs> Asking<A> {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let posed = self.asked.pose(&self.source)?;
         self.analysis.answer(posed, self.format)

@@ -7,7 +7,7 @@ use linkwork::output::drawing::sheet;
 use linkwork::output::equilibrium::panels;
 use linkwork::system::Analysed;
 
-use super::asked::{Analysis, Forces, Posed};
+use super::asked::{AnalysisArgs, Forces, Posed};
 use super::format::Format;
 use super::pictures::Pictures;
 use super::search::seed;
@@ -41,7 +41,7 @@ pub struct EquilibriumArguments {
     pictures: Pictures,
 }
 
-impl Analysis for EquilibriumArguments {
+impl AnalysisArgs for EquilibriumArguments {
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.forces.pose(&mut posed);
         posed.names(Role::Lock, &self.lock);

@@ -9,7 +9,7 @@ use linkwork::mechanism::Frame;
 use linkwork::output::complaint::Complaint;
 use linkwork::output::formulas as output;
 
-use super::asked::{self, Analysis, Posed};
+use super::asked::{self, AnalysisArgs, Posed};
 use super::format::Format;
 use super::source::LoadedFile;
 use super::watched::watched;
@@ -51,7 +51,7 @@ pub struct Formulas {
     rust: bool,
 }
 
-impl Analysis for Formulas {
+impl AnalysisArgs for Formulas {
     fn answer(&self, posed: Posed, format: Format) -> Result<Answer, Refusal> {
         if self.solve {
             return self.solved(&posed, format);

@@ -4,7 +4,7 @@ use clap::Args;
 use linkwork::analysis::mobility::MobilitySettings;
 use linkwork::ask::{Question, Role};
 
-use super::asked::{Analysis, Posed};
+use super::asked::{AnalysisArgs, Posed};
 use super::format::Format;
 use super::search::seed;
 use super::{Answer, Refusal};
@@ -29,7 +29,7 @@ pub struct Mobility {
     seed: u64,
 }
 
-impl Analysis for Mobility {
+impl AnalysisArgs for Mobility {
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         posed.names(Role::Lock, &self.lock);
         posed.ask_with(|question| question.seed(self.seed));

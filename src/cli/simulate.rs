@@ -7,7 +7,7 @@ use linkwork::ask::Role;
 use linkwork::output::sweep::Picture;
 use linkwork::system::Analysed;
 
-use super::asked::{Analysis, Forces, Posed};
+use super::asked::{AnalysisArgs, Forces, Posed};
 use super::format::Format;
 use super::pictures::Pictures;
 use super::source::Assignment;
@@ -60,7 +60,7 @@ pub struct Simulate {
     pictures: Pictures,
 }
 
-impl Analysis for Simulate {
+impl AnalysisArgs for Simulate {
     const ROWS: bool = true;
 
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {

@@ -7,7 +7,7 @@ use linkwork::analysis::singularities::SingularitiesSettings;
 use linkwork::ask::Role;
 use linkwork::output::singularities as output;
 
-use super::asked::{Analysis, Posed};
+use super::asked::{AnalysisArgs, Posed};
 use super::format::Format;
 use super::search::{SearchArgs, mode};
 use super::source::Assignment;
@@ -58,7 +58,7 @@ pub struct Singularities {
     svg: Option<PathBuf>,
 }
 
-impl Analysis for Singularities {
+impl AnalysisArgs for Singularities {
     const ROWS: bool = true;
 
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {

@@ -4,7 +4,7 @@ use clap::Args;
 use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::ask::Solved;
 
-use super::asked::{Analysis, Posed};
+use super::asked::{AnalysisArgs, Posed};
 use super::format::Format;
 use super::search::{SearchArgs, mode};
 use super::{Answer, Refusal};
@@ -31,7 +31,7 @@ pub struct Solve {
     search: SearchArgs,
 }
 
-impl Analysis for Solve {
+impl AnalysisArgs for Solve {
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.search.pose(&mut posed)?;
         posed.mode(self.mode);

@@ -3,7 +3,7 @@
 use clap::Args;
 use linkwork::ask::Question;
 
-use super::asked::{Analysis, Forces, Posed};
+use super::asked::{AnalysisArgs, Forces, Posed};
 use super::format::Format;
 use super::{Answer, Refusal};
 
@@ -22,7 +22,7 @@ pub struct Statics {
     forces: Forces,
 }
 
-impl Analysis for Statics {
+impl AnalysisArgs for Statics {
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         self.forces.pose(&mut posed);
         posed.answer(format, Question::statics)

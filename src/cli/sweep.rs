@@ -13,7 +13,7 @@ use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
 use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, sentence};
 
-use super::asked::{Analysis, Forces, Posed};
+use super::asked::{AnalysisArgs, Forces, Posed};
 use super::format::Format;
 use super::pictures::Pictures;
 use super::read::{called, text};
@@ -111,7 +111,7 @@ fn law() -> impl clap::builder::TypedValueParser<Value = Law> {
 
 const MOST_KEPT: usize = 1_000_000;
 
-impl Analysis for Sweep {
+impl AnalysisArgs for Sweep {
     const ROWS: bool = true;
 
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {

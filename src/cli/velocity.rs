@@ -3,7 +3,7 @@
 use clap::Args;
 use linkwork::ask::{Question, Role};
 
-use super::asked::{Analysis, Posed};
+use super::asked::{AnalysisArgs, Posed};
 use super::format::Format;
 use super::source::Assignment;
 use super::{Answer, Refusal};
@@ -29,7 +29,7 @@ pub struct Velocity {
     point: Vec<String>,
 }
 
-impl Analysis for Velocity {
+impl AnalysisArgs for Velocity {
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {
         posed.values(Role::Rate, &self.rate);
         posed.values(Role::Acceleration, &self.acceleration);

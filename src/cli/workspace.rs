@@ -7,7 +7,7 @@ use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::Mode;
 use linkwork::output::{Report, workspace as output};
 
-use super::asked::{Analysis, Posed};
+use super::asked::{AnalysisArgs, Posed};
 use super::format::{Format, beside_rows};
 use super::search::SearchArgs;
 use super::source::Assignment;
@@ -54,7 +54,7 @@ pub struct Workspace {
     svg: Option<PathBuf>,
 }
 
-impl Analysis for Workspace {
+impl AnalysisArgs for Workspace {
     const ROWS: bool = true;
 
     fn answer(&self, mut posed: Posed, format: Format) -> Result<Answer, Refusal> {

@@ -27,7 +27,7 @@ mod sets;
 mod tangent;
 
 pub use crate::mechanism::{
-    FormulaNames, FrameRecord, Named, PlatformRecord, PointError, Value, ValueError,
+    ByName, FormulaNames, FrameRecord, PlatformRecord, PointError, Value, ValueError,
 };
 pub use balance::{Balance, Instant};
 pub use bearing::{Bearings, Carried};
@@ -44,7 +44,7 @@ pub use dynamics::{Accelerated, Dynamics, NoDynamics};
 pub(crate) use enclosure::Enclosure;
 pub use equations::{
     ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldParts, HeldPlatform, Places, Spin,
-    System, Unknown, Work, approach, independent_parts,
+    System, SystemWork, Unknown, approach, independent_parts,
 };
 pub(crate) use equations::{ConstantsCourse, solve};
 pub use equilibrium::Equilibrium;

@@ -45,7 +45,7 @@ pub use linkage::{Connection, Connector, FundamentalLoop, Linkage};
 
 pub use loads::{Along, Friction, GivenEffort, GivenForce, GivenValue, Loads, Mass, Spring};
 pub use point::{NamedPoint, Point, PointError};
-pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord};
+pub use record::{ByName, FormulaNames, FrameRecord, PlatformRecord};
 pub use relation::JointRelation;
 
 pub use quantity::{

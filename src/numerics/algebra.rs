@@ -28,8 +28,8 @@ pub use parser::shown;
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};
 pub use straight_line::{
-    BATCH, Batch, Decision, LEAST_PIVOT, Operation, Pivot, Place, Recorded, Registers, eliminate,
-    evaluate, needed, record, run,
+    BATCH, Batch, Decision, LEAST_PIVOT, Operation, OperationIndex, Pivot, Recorded, Registers,
+    eliminate, evaluate, needed, record, run,
 };
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, ByUnknowns, Key, Monomial, Powers, Trigonometric, Wave};

@@ -21,14 +21,14 @@ mod watch;
 
 pub use boxes::{Conditions, Pruned, Pruning, Sides, holds_one, isolated, nearest, prune};
 pub use branching::{ALIGNED, BranchPoint};
-pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
+pub use continuation::{Continuation, CurvePoint, SolutionCurve, StepFailure};
 pub use deflation::{deflating_step, step_off_saddle};
 pub use endgame::{PathEnd, Turning, path_end};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use integrator::{Flow, Integrator, TooShort};
 pub use least_squares::{Fitted, LeastSquares, LevenbergMarquardt, Misfit};
 pub use minimum::{simplex, walk_down};
-pub use newton::{Newton, Report, Stop};
+pub use newton::{Newton, NewtonReport, Stop};
 pub use summit::{edge, halved, summit};
 pub use threads::{Pool, each};
 pub use warm::{Trail, Warm, WarmReport};
@@ -39,7 +39,7 @@ use crate::number::Field;
 /// Equations r(x) = 0 on a manifold, with a least-squares step at a point.
 pub trait Equations {
     /// The number of a row or an unknown.
-    type Number: Field;
+    type Scalar: Field;
     /// A point of the manifold.
     type Point;
     /// Storage for residual, factors and step, so that no iteration allocates.
@@ -54,7 +54,7 @@ pub trait Equations {
     /// The step −J⁺r for the residual last evaluated; returns its largest component, infinite if one is not finite.
     fn step(&self, work: &mut Self::Work) -> f64;
     /// The last step in tangent coordinates, to be read or to be replaced by another move.
-    fn step_mut<'a>(&self, work: &'a mut Self::Work) -> &'a mut [Self::Number];
+    fn step_mut<'a>(&self, work: &'a mut Self::Work) -> &'a mut [Self::Scalar];
     /// Moves along a fraction of the last step: from ⊕ fraction·step.
     fn advance(&self, from: &Self::Point, fraction: f64, work: &Self::Work, to: &mut Self::Point);
 }

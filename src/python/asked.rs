@@ -26,39 +26,39 @@ use crate::solve::Pruning;
 
 /// A number in SI units and rad, or an expression with units as in a file.
 #[derive(Clone)]
-pub enum Number {
+pub enum GivenNumber {
     Number(f64),
     Text(String),
 }
 
-impl<'py> FromPyObject<'_, 'py> for Number {
+impl<'py> FromPyObject<'_, 'py> for GivenNumber {
     type Error = PyErr;
 
     fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(text) = given.extract::<String>() {
-            return Ok(Number::Text(text));
+            return Ok(GivenNumber::Text(text));
         }
         match given.is_instance_of::<PyBool>() {
             true => Err(PyTypeError::new_err("a truth value is no number")),
-            false => Ok(Number::Number(given.extract()?)),
+            false => Ok(GivenNumber::Number(given.extract()?)),
         }
     }
 }
 
-impl Display for Number {
+impl Display for GivenNumber {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
-            Number::Number(number) => write!(f, "{number:?}"),
-            Number::Text(text) => f.write_str(text),
+            GivenNumber::Number(number) => write!(f, "{number:?}"),
+            GivenNumber::Text(text) => f.write_str(text),
         }
     }
 }
 
 /// Numbers are read as the command line reads them, which refuses angles of many turns without a unit.
-impl From<&Number> for Value {
-    fn from(given: &Number) -> Self {
+impl From<&GivenNumber> for Value {
+    fn from(given: &GivenNumber) -> Self {
         match given {
-            Number::Number(number) if !number.is_finite() => Value::Number(*number),
+            GivenNumber::Number(number) if !number.is_finite() => Value::Number(*number),
             number => Value::Text(number.to_string()),
         }
     }
@@ -133,7 +133,7 @@ fn entries<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Entries<'py>>
 }
 
 /// The numbers and expressions that a mapping gives to names.
-pub fn values(name: &str, given: &Bound<PyAny>) -> PyResult<Vec<(String, Number)>> {
+pub fn values(name: &str, given: &Bound<PyAny>) -> PyResult<Vec<(String, GivenNumber)>> {
     let entries = entries(name, given)?.into_iter();
     let value = |(of, value): (String, Bound<PyAny>)| {
         let number = taken(&format!("{name}[{of:?}]"), VALUE, &value)?;
@@ -143,7 +143,7 @@ pub fn values(name: &str, given: &Bound<PyAny>) -> PyResult<Vec<(String, Number)
 }
 
 /// The ends of a range.
-fn range(name: &str, given: &Bound<PyAny>) -> PyResult<(Number, Number)> {
+fn range(name: &str, given: &Bound<PyAny>) -> PyResult<(GivenNumber, GivenNumber)> {
     let ends: Vec<Bound<PyAny>> = taken(name, "two values, (from, to)", given)?;
     match &ends[..] {
         [from, to] => Ok((
@@ -246,7 +246,7 @@ impl GivenQuestion {
     fn set(&mut self, key: &str, given: &Bound<'_, PyAny>) -> PyResult<()> {
         let mechanism = self.question.mechanism().clone();
         let number = |unit, range| {
-            let value = Value::from(&taken::<Number>(key, VALUE, given)?);
+            let value = Value::from(&taken::<GivenNumber>(key, VALUE, given)?);
             let number = setting(&mechanism, &value, unit, range);
             number.map_err(|said| QuestionError::new_err(format!("`{key}`: {}", worded(&said))))
         };

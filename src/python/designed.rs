@@ -22,7 +22,7 @@ pub fn design<'py>(
     solutions: usize,
     most: usize,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(PythonReport, super::Columns<'py>)> {
+) -> PyResult<(PythonReport, super::NamedArrays<'py>)> {
     let wrong = |problems| {
         let error = FileError::new("design", text.clone(), problems);
         QuestionError::new_err(diagnostics::render(&error, Style::Plain))

@@ -234,8 +234,9 @@ fn function(crank: &[f64], rocker: &[f64], start: &str) -> DesignReport {
 
 /// The lengths of crank, coupler and rocker of all designs without their signs, in order.
 fn lengths(report: &DesignReport) -> Vec<[f64; 3]> {
-    let lengths =
-        |design: &linkwork::analysis::design::Design| [0, 1, 2].map(|i| design.values[i].abs());
+    let lengths = |design: &linkwork::analysis::design::FoundDesign| {
+        [0, 1, 2].map(|i| design.values[i].abs())
+    };
     let mut all: Vec<[f64; 3]> = report.designs.iter().map(lengths).collect();
     all.sort_by(|a, b| a[0].total_cmp(&b[0]));
     all

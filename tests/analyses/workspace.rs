@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::linkwork;
-use linkwork::analysis::workspace::{BoundaryKind, Cell, WorkspaceReport, WorkspaceSettings};
+use linkwork::analysis::workspace::{BoundaryKind, MapNode, WorkspaceReport, WorkspaceSettings};
 use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
@@ -65,8 +65,8 @@ fn map(
 }
 
 /// Every node with its coordinates and the cells within limits.
-fn nodes(report: &WorkspaceReport) -> Vec<(Vec<f64>, Vec<Cell<'_>>)> {
-    let mut of: BTreeMap<usize, Vec<Cell>> = BTreeMap::new();
+fn nodes(report: &WorkspaceReport) -> Vec<(Vec<f64>, Vec<MapNode<'_>>)> {
+    let mut of: BTreeMap<usize, Vec<MapNode>> = BTreeMap::new();
     for cell in report.cells.iter().filter(|cell| cell.aspect.is_some()) {
         of.entry(cell.node).or_default().push(cell);
     }
@@ -297,8 +297,8 @@ fn within_one_aspect_of_a_five_bar_nothing_is_singular() {
         &[],
         15,
     );
-    let outwards = |cell: &Cell| cell.joints[2] < 0.0 && cell.joints[3] > 0.0;
-    let cells: Vec<Cell> = report.cells.iter().filter(outwards).collect();
+    let outwards = |cell: &MapNode| cell.joints[2] < 0.0 && cell.joints[3] > 0.0;
+    let cells: Vec<MapNode> = report.cells.iter().filter(outwards).collect();
     assert_eq!(cells.len(), 225);
     assert!(cells.iter().all(|cell| cell.aspect == cells[0].aspect));
     let mode = cells[0].mode;
@@ -683,7 +683,7 @@ fn nodes_on_a_singularity_part_aspects_and_belong_to_none() {
     let mechanism = written(&text("three_rps"), &[]);
     let axes = [("top.z", 0.0, 1.2), ("top.roll", -1.0, 1.0)];
     let report = map(&mechanism, &axes, &[("top.pitch", 0.0)], 24);
-    let (flat, raised): (Vec<Cell>, Vec<Cell>) =
+    let (flat, raised): (Vec<MapNode>, Vec<MapNode>) =
         report.cells.iter().partition(|cell| cell.at[0] == 0.0);
     assert_eq!(flat.len(), 24);
     for cell in flat {

@@ -222,7 +222,7 @@ fn every_jacobian_entry_is_the_derivative_of_its_residual_over_every_number() {
     }
 }
 
-fn work_size(system: &System<f64>, work: &linkwork::system::Work<f64>) -> f64 {
+fn work_size(system: &System<f64>, work: &linkwork::system::SystemWork<f64>) -> f64 {
     let largest = system.residual_of(work).iter();
     largest.fold(0.0, |m: f64, r| m.max(r.abs()))
 }
@@ -569,7 +569,7 @@ fn storage_of_another_dimension_forgets_what_affected_a_closure_there() {
         .each_ref()
         .map(|mechanism| System::<f64>::new(mechanism.dimensions(), &free(mechanism)));
     let at = mechanisms[0].home();
-    let jacobian = |system: &System<f64>, work: &mut linkwork::system::Work<f64>| {
+    let jacobian = |system: &System<f64>, work: &mut linkwork::system::SystemWork<f64>| {
         system.linearise(&at, work);
         system.dense_jacobian(work)
     };

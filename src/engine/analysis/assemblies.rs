@@ -20,8 +20,8 @@ mod track;
 pub use follow::{Fold, Followed, LostMode, LostReason};
 pub use proof::prove;
 pub use report::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, GenericSearch,
-    ListedJoint, Named, Part, PoseReport, Proof, Range, Unfit,
+    AssembliesReport, Assembly, ByName, ClosestApproach, ComplexAssembly, Continuum, Fit,
+    GenericSearch, ListedJoint, Part, PoseReport, Proof, Range, Unfit,
 };
 pub use search::{GenericSolutions, StoredError};
 
@@ -29,7 +29,7 @@ use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
 use crate::solve::{Pruning, Watch};
 use crate::system::{Held, Neighbourhood, Still, System, sets_of_angles};
-use answer::{Question, grouped};
+use answer::{TargetProblem, grouped};
 use family::{C, Family, KnownBound, Member};
 use search::question;
 
@@ -247,7 +247,7 @@ impl AssemblySolver {
             }
         }
         let asked = &asked;
-        let question = Question {
+        let question = TargetProblem {
             mechanism: &self.mechanism,
             coordinates: &self.family.coordinates,
             flips: self.family.ways(),

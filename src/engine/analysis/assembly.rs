@@ -8,7 +8,7 @@ use crate::geometry::Pose;
 use crate::mechanism::{Configuration, Frame, Mechanism, turn_near};
 use crate::number::tolerance::ROUNDING;
 use crate::solve::{Equations, Newton, Stop, Watch};
-pub use crate::system::{AssemblySettings, Count, FrameRecord, Gap, Named, PlatformRecord};
+pub use crate::system::{AssemblySettings, ByName, Count, FrameRecord, Gap, PlatformRecord};
 use crate::system::{
     Attempt, Freedoms, Neighbourhood, Question, QuestionError, Search, approach, check_count, moved,
 };

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::EvaluationError;
 use crate::mechanism::{ClosedForm, Configuration, GivenForm, MatrixEntry, Mechanism};
 use crate::solve::{Progress, Stage, Watch};
-use crate::system::{FormulaNames, Named};
+use crate::system::{ByName, FormulaNames};
 pub use conditions::FormDivisor;
 use conditions::ProofConditions;
 use formula::{NamedValues, measured};
@@ -96,7 +96,7 @@ pub struct FormReport {
     pub components: Vec<ComponentReport>,
     /// The joint values at which its worst component differs most, rad or m; empty if there was no
     /// sample.
-    pub worst: Named<f64>,
+    pub worst: ByName<f64>,
 }
 
 /// Outcome of comparing a closed form with the chains.
@@ -146,7 +146,7 @@ pub struct ComponentReport {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorstSample {
     /// Joint values, rad or m.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
     /// Value of the closed form.
     pub closed_form: f64,
     /// Value from the chains; zero for an identity.
@@ -390,7 +390,7 @@ impl<'a> Checked<'a> {
             max_difference: (components.iter()).fold(0.0, |m, c| c.max_difference.max(m)),
             samples: components.iter().map(|c| c.samples).max().unwrap_or(0),
             source: form.source.clone(),
-            worst: worst.map_or(Named::default(), |worst| worst.joints.clone()),
+            worst: worst.map_or(ByName::default(), |worst| worst.joints.clone()),
             components,
         }
     }

@@ -25,5 +25,5 @@ pub use front::Costs;
 pub use improve::Cost;
 pub use listed::Listed;
 pub use pinned::PinnedFourBar;
-pub use report::{Cognate, Defect, Design, DesignReport, Deviation, Goal, Moves, Nearest};
+pub use report::{Cognate, Defect, DesignReport, Deviation, FoundDesign, Goal, Moves, Nearest};
 pub use search::{FoundEnd, SearchedEnds, Task};

@@ -13,7 +13,7 @@ use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::sorting::sort_by;
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, AssemblySettings, Coordinate, Dynamics, GivenPose, Load, Named, Neighbourhood,
+    Analysed, AssemblySettings, ByName, Coordinate, Dynamics, GivenPose, Load, Neighbourhood,
     NoDynamics, NotAlgebraic, PlatformRecord, Question, RegularFreedoms, Still,
     random_configuration,
 };
@@ -54,7 +54,7 @@ pub struct EquilibriumReport {
     /// Freedoms in which it can move.
     pub freedoms: usize,
     /// Units of the joints, rad or m.
-    pub units: Named<SiUnit>,
+    pub units: ByName<SiUnit>,
     /// The rest positions, that of least potential energy first.
     pub positions: Vec<RestPosition>,
     /// The reason for which there is none.
@@ -84,9 +84,9 @@ pub struct RestPosition {
     #[serde(skip)]
     pub place: Option<Configuration<f64>>,
     /// Values of the joints, in rad and m.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
     /// Poses of the platforms.
-    pub platforms: Named<PlatformRecord>,
+    pub platforms: ByName<PlatformRecord>,
     /// Potential energy of weights and springs, in J.
     pub potential: f64,
     /// The force that is left along any independent coordinate, in N or N·m: rounding.

@@ -12,7 +12,7 @@ mod placing;
 mod report;
 mod variable;
 
-pub use follower::{Follower, Motions};
+pub use follower::{Follower, FollowerState};
 pub use forces::forces;
 pub use report::{
     ClosedProgram, Component, Divisor, ForceComponent, ForceProgram, FrameProgram, Radicand, Solver,

@@ -44,7 +44,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
-use crate::solve::{Continuation, Place, Progress, Stage, Watch};
+use crate::solve::{Continuation, CurvePoint, Progress, Stage, Watch};
 pub use crate::system::SweepEnd;
 use crate::system::{Bound, Curve, Driven, Event, Held, Walk};
 use begin::{MOST_STEPS, beginning};
@@ -52,7 +52,7 @@ use met::Record;
 use paths::TracedTrail;
 use rows::{RowMaker, holding};
 
-type At = Place<Configuration<f64>>;
+type At = CurvePoint<Configuration<f64>>;
 
 /// Settings of a sweep.
 #[derive(Clone, Debug, PartialEq)]

@@ -22,7 +22,7 @@ mod problem;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
 pub use map::{
-    AspectReport, AxisReport, BoundaryPoint, Cell, Cells, Conditioned, HeldReport, HomeReport,
+    AspectReport, AxisReport, BoundaryPoint, Cells, Conditioned, HeldReport, HomeReport, MapNode,
     ModeReport, WorkspaceReport,
 };
 

@@ -168,7 +168,7 @@ impl Design {
             judge.watch = &none;
         }
         // of a linkage with links exchanged the one that drives without defects
-        let mut classes: Vec<(&FoundEnd, design::Design)> = Vec::new();
+        let mut classes: Vec<(&FoundEnd, design::FoundDesign)> = Vec::new();
         for found in found {
             if searched.interrupted && classes.len() >= FEW {
                 break;
@@ -192,13 +192,13 @@ impl Design {
         let mut distinct: Vec<usize> = searched.found.iter().map(|of| of.class).collect();
         distinct.sort_unstable();
         distinct.dedup();
-        let rank = |of: &design::Design, i: usize| {
+        let rank = |of: &design::FoundDesign, i: usize| {
             let goal = self.asked.goals.get(i).map(DesignGoal::sign);
             let value = [of.goal, of.second_goal][i];
             goal.zip(value).map_or(f64::INFINITY, |(sign, x)| sign * x)
         };
         sort_by(&mut classes, |(_, a), (_, b)| {
-            let defects = |of: &design::Design| !of.defects.is_empty();
+            let defects = |of: &design::FoundDesign| !of.defects.is_empty();
             let goals = [0, 1].map(|i| rank(a, i).total_cmp(&rank(b, i)));
             defects(a).cmp(&defects(b)).then(goals[0]).then(goals[1])
         });
@@ -213,7 +213,7 @@ impl Design {
         classes.truncate(most);
         let points: Vec<&Bundled> = classes.iter().map(|(of, _)| &of.at).collect();
         let cognates = task.cognates(&points);
-        let mut designs: Vec<design::Design> = classes.into_iter().map(|(_, of)| of).collect();
+        let mut designs: Vec<design::FoundDesign> = classes.into_iter().map(|(_, of)| of).collect();
         for (design, cognates) in designs.iter_mut().zip(cognates) {
             design.cognates = cognates;
         }
@@ -330,7 +330,7 @@ impl Design {
         problem.at(part.unwrap_or(DesignPart::Whole))
     }
 
-    fn design(&self, task: &Task, judge: &Judge, found: &FoundEnd) -> Option<design::Design> {
+    fn design(&self, task: &Task, judge: &Judge, found: &FoundEnd) -> Option<design::FoundDesign> {
         let mut verdict = judge.verdict(found);
         let deviations = judge.read.missed(&task.bundle, found)?;
         let beyond = deviations.iter().filter(|of| of.is_missed()).cloned();
@@ -339,7 +339,7 @@ impl Design {
             verdict.defects.push(design::Defect::Tolerance { targets });
         }
         let model = task.bundle.model(&found.at)?;
-        Some(design::Design {
+        Some(design::FoundDesign {
             values: found.at.numbers.clone(),
             sum_of_squares: found.squares,
             deviations,

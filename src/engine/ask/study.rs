@@ -33,7 +33,7 @@ const MOST_ROWS: usize = 10_000_000;
 pub struct Study {
     question: Question,
     points: Points,
-    varied: Vec<Varied>,
+    varied: Vec<StudyVariable>,
     ranges: Vec<ScatteredPoints>,
     /// True if assemblies are counted.
     counted: bool,
@@ -44,7 +44,7 @@ pub struct Study {
 
 /// A varied parameter or coordinate.
 #[derive(Clone)]
-struct Varied {
+struct StudyVariable {
     name: String,
     unit: SiUnit,
     /// The index of the parameter.
@@ -75,9 +75,9 @@ pub fn part_of(rows: usize, shard: usize, of: usize) -> Result<Range<usize>, Stu
     Ok(end(shard - 1)..end(shard))
 }
 
-impl Varied {
+impl StudyVariable {
     fn parameter(index: usize, of: &Parameter) -> Self {
-        Varied {
+        StudyVariable {
             name: of.name.to_string(),
             unit: match of.measure {
                 Measure::Angle => SiUnit::RADIAN,
@@ -89,7 +89,7 @@ impl Varied {
     }
 
     fn coordinate(name: &str, of: Coordinate, mechanism: &Mechanism) -> Self {
-        Varied {
+        StudyVariable {
             name: name.into(),
             unit: SiUnit::of_coordinate(of.is_angle(mechanism)),
             parameter: None,
@@ -156,7 +156,7 @@ impl Study {
             if let Some((index, parameter)) = parameter(&mechanism, name)? {
                 let number = |value| number(&mechanism, index, value);
                 ranges.push(ScatteredPoints::Even(number(&from)?, number(&to)?));
-                varied.push(Varied::parameter(index, parameter));
+                varied.push(StudyVariable::parameter(index, parameter));
                 continue;
             }
             let (of, from) =
@@ -165,7 +165,7 @@ impl Study {
             ranges.push(ScatteredPoints::Even(from, to));
             // what follows a joint is that joint
             let name = of.name(&mechanism);
-            varied.push(Varied::coordinate(&name, of, &mechanism));
+            varied.push(StudyVariable::coordinate(&name, of, &mechanism));
         }
         for (_, demand) in question.once(Role::Deviate)? {
             let (name, deviation) = (&demand.name, &demand.value(0));
@@ -174,7 +174,7 @@ impl Study {
             }
             let (value, deviation) = match parameter(&mechanism, name)? {
                 Some((index, parameter)) => {
-                    varied.push(Varied::parameter(index, parameter));
+                    varied.push(StudyVariable::parameter(index, parameter));
                     (parameter.value, number(&mechanism, index, deviation)?)
                 }
                 None => {
@@ -191,7 +191,7 @@ impl Study {
                         }
                         .into());
                     }
-                    varied.push(Varied::coordinate(name, of, &mechanism));
+                    varied.push(StudyVariable::coordinate(name, of, &mechanism));
                     (mean, deviation)
                 }
             };

@@ -1,6 +1,6 @@
 //! Test for two solutions of one branch.
 
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::linear::{DENSE_LIMIT, norm, relative_change};
 use crate::mechanism::Configuration;
 use crate::solve::Equations;
@@ -20,7 +20,7 @@ impl System<f64> {
         &self,
         from: &Configuration<f64>,
         to: &Configuration<f64>,
-        work: &mut Work<f64>,
+        work: &mut SystemWork<f64>,
     ) -> bool {
         let back = self.difference(to, from);
         let way = norm(&back);

@@ -36,7 +36,7 @@ use crate::linear::{Factorable, RANK_TOLERANCE};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Frame, Kept, Mechanism};
 use crate::number::{Gradient, Number};
 use crate::solve::{Equations, LeastSquares, Misfit};
-use crate::system::{Held, System, Work};
+use crate::system::{Held, System, SystemWork};
 
 /// Configurations of one mechanism that share some of its parameters.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ pub struct Bundle<'m> {
     cut: f64,
     /// Ranges of the shared numbers, where every configuration is kept closed.
     ranges: Option<Vec<(f64, f64)>>,
-    written: Option<Arc<written::Written>>,
+    written: Option<Arc<written::BundlePrograms>>,
 }
 
 /// A point of a bundle: its shared numbers, and a configuration for each of its places.
@@ -73,7 +73,7 @@ pub struct Bundled {
 /// The equations of one configuration with their evaluation over some directions of differentiation.
 struct Lanes {
     system: System<Gradient>,
-    work: Work<Gradient>,
+    work: SystemWork<Gradient>,
     parameters: Vec<Gradient>,
 }
 

@@ -14,12 +14,12 @@ pub use walk::{Event, Monitor, Segment, Walk};
 
 use serde::{Deserialize, Serialize};
 
-use super::equations::{System, Work};
+use super::equations::{System, SystemWork};
 use crate::algebra::SiUnit;
 use crate::linear::RowGroup;
 use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, turn_near};
 use crate::number::tolerance::ROUNDING;
-use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
+use crate::solve::{Continuation, CurvePoint, Equations, SolutionCurve, StepFailure};
 use crate::system::{Coordinate, Held, Unknown};
 
 /// A coordinate that moves along a segment, in m or rad.
@@ -126,7 +126,7 @@ pub enum NoStart {
 #[derive(Clone, Debug)]
 pub struct Curve {
     system: System<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
     inputs: Vec<Driven>,
     /// The input that measures the part of the segment that is gone.
     measure: usize,
@@ -220,7 +220,7 @@ impl Curve {
         mechanism: &Mechanism,
         start: &mut Configuration<f64>,
         method: &Continuation,
-    ) -> Result<Place<Configuration<f64>>, NoStart> {
+    ) -> Result<CurvePoint<Configuration<f64>>, NoStart> {
         mechanism.turn_to_limits(&mut start.joints);
         for input in &self.inputs {
             if let Coordinate::Joint(joint) = input.coordinate {
@@ -240,8 +240,8 @@ impl Curve {
     /// A place followed towards the end of the segment, and true if the inputs turn back there.
     pub fn towards_end(
         &self,
-        place: Place<Configuration<f64>>,
-    ) -> (Place<Configuration<f64>>, bool) {
+        place: CurvePoint<Configuration<f64>>,
+    ) -> (CurvePoint<Configuration<f64>>, bool) {
         let rate = self.part_rate(&place.at, &place.tangent);
         let place = if rate < 0.0 { place.reversed() } else { place };
         (place, rate.abs() < ROUNDING)
@@ -298,7 +298,11 @@ impl Curve {
 
     /// Distances of a configuration from a place, along its tangent and across it. Nothing allocates.
     #[inline]
-    pub fn offset(&self, from: &Place<Configuration<f64>>, to: &Configuration<f64>) -> (f64, f64) {
+    pub fn offset(
+        &self,
+        from: &CurvePoint<Configuration<f64>>,
+        to: &Configuration<f64>,
+    ) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
         (self.system).each_difference(from.at.view(), to.view(), |i, x| {
             along += x * from.tangent[i];

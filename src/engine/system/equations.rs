@@ -57,7 +57,7 @@ pub struct System<T: Factorable> {
 
 /// Storage of a [`System`]: nothing in it outlives the question it was made for.
 #[derive(Clone, Debug)]
-pub struct Work<T: Factorable> {
+pub struct SystemWork<T: Factorable> {
     placement: Placement<T>,
     residual: Vec<T>,
     jacobian: Bordered<T>,
@@ -140,8 +140,8 @@ impl<T: Factorable> System<T> {
     }
 
     /// Storage for solving.
-    pub fn work(&self) -> Work<T> {
-        Work {
+    pub fn work(&self) -> SystemWork<T> {
+        SystemWork {
             placement: self.kinematics.placement(),
             residual: vec![T::zero(); self.empty.rows()],
             jacobian: self.empty.clone(),
@@ -156,18 +156,22 @@ impl<T: Factorable> System<T> {
     }
 
     /// Places its frames, and evaluates nothing.
-    pub fn place<'a>(&self, at: &Configuration<T>, work: &'a mut Work<T>) -> &'a Placement<T> {
+    pub fn place<'a>(
+        &self,
+        at: &Configuration<T>,
+        work: &'a mut SystemWork<T>,
+    ) -> &'a Placement<T> {
         self.kinematics.place(at, &mut work.placement);
         &work.placement
     }
 
     /// The frames as they were last placed.
-    pub fn placement<'a>(&self, work: &'a Work<T>) -> &'a Placement<T> {
+    pub fn placement<'a>(&self, work: &'a SystemWork<T>) -> &'a Placement<T> {
         &work.placement
     }
 
     /// Adapts storage of a system that differs in its dimensions only; its factors stay as they are.
-    pub fn refit(&self, work: &mut Work<T>) {
+    pub fn refit(&self, work: &mut SystemWork<T>) {
         let [here, there] =
             [&self.empty, &work.jacobian].map(|j| j.blocks().iter().map(|filled| &filled.block));
         match here.eq(there) {
@@ -252,7 +256,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// The dimensionless residual last evaluated.
-    pub fn residual_of<'a>(&self, work: &'a Work<T>) -> &'a [T] {
+    pub fn residual_of<'a>(&self, work: &'a SystemWork<T>) -> &'a [T] {
         &work.residual
     }
 
@@ -262,7 +266,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// The Jacobian last evaluated, dense and column-major, rows × unknowns.
-    pub fn dense_jacobian(&self, work: &Work<T>) -> Vec<T> {
+    pub fn dense_jacobian(&self, work: &SystemWork<T>) -> Vec<T> {
         let (rows, row) = (self.rows(), self.hold_rows().start);
         let mut dense = vec![T::zero(); rows * self.unknowns.len()];
         for (row, unknown, column) in work.jacobian.columns() {
@@ -277,7 +281,7 @@ impl<T: Factorable> System<T> {
         dense
     }
 
-    fn jacobian_columns(&self, at: &Configuration<T>, work: &mut Work<T>) {
+    fn jacobian_columns(&self, at: &Configuration<T>, work: &mut SystemWork<T>) {
         for (plan, closure) in self.plans.iter().zip(&self.closures) {
             let rows = closure.rows(&work.placement, at);
             let residual = &rows.residual[..plan.rows];
@@ -314,12 +318,12 @@ impl<T: Factorable> System<T> {
 }
 
 impl<T: Factorable> Equations for System<T> {
-    type Number = T;
+    type Scalar = T;
     type Point = Configuration<T>;
-    type Work = Work<T>;
+    type Work = SystemWork<T>;
 
     #[inline]
-    fn residual(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
+    fn residual(&self, at: &Configuration<T>, work: &mut SystemWork<T>) -> Size {
         self.kinematics.place(at, &mut work.placement);
         for (plan, closure) in self.plans.iter().zip(&self.closures) {
             let out = &mut work.residual[plan.row..plan.row + plan.rows];
@@ -332,7 +336,7 @@ impl<T: Factorable> Equations for System<T> {
     }
 
     #[inline]
-    fn linearise(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
+    fn linearise(&self, at: &Configuration<T>, work: &mut SystemWork<T>) -> Size {
         self.kinematics.place(at, &mut work.placement);
         self.jacobian_columns(at, work);
         if !self.holds.is_empty() {
@@ -342,18 +346,18 @@ impl<T: Factorable> Equations for System<T> {
     }
 
     #[inline]
-    fn factorise(&self, damping: f64, work: &mut Work<T>) {
+    fn factorise(&self, damping: f64, work: &mut SystemWork<T>) {
         work.jacobian.factorise(&work.hold_rows, damping);
     }
 
     #[inline]
-    fn step(&self, work: &mut Work<T>) -> f64 {
+    fn step(&self, work: &mut SystemWork<T>) -> f64 {
         work.jacobian.solve(&work.residual, &mut work.step);
         Size::of(&work.step).largest
     }
 
     #[inline]
-    fn step_mut<'a>(&self, work: &'a mut Work<T>) -> &'a mut [T] {
+    fn step_mut<'a>(&self, work: &'a mut SystemWork<T>) -> &'a mut [T] {
         &mut work.step
     }
 
@@ -362,7 +366,7 @@ impl<T: Factorable> Equations for System<T> {
         &self,
         from: &Configuration<T>,
         fraction: f64,
-        work: &Work<T>,
+        work: &SystemWork<T>,
         to: &mut Configuration<T>,
     ) {
         let step = &work.step;

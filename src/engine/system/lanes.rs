@@ -1,6 +1,6 @@
 //! Many configurations of one mechanism at once: operations recorded at a sample, run for [`BATCH`] lanes side by side.
 
-use crate::algebra::{BATCH, Batch, Decision, Operation, Place, Registers};
+use crate::algebra::{BATCH, Batch, Decision, Operation, OperationIndex, Registers};
 use crate::number::widest;
 
 /// For each lane all bits or none.
@@ -30,14 +30,15 @@ impl LaneProgram {
     pub fn new(
         operations: &[Operation],
         (inputs, known): (usize, usize),
-        sections: &[Vec<Place>],
+        sections: &[Vec<OperationIndex>],
         (decisions, decided): (&[Decision], usize),
     ) -> Self {
         let mut all = sections.to_vec();
         all[decided].extend(decisions.iter().map(|(place, _)| *place));
         all[Self::KNOWN] = Batch::known(operations, known, &all.concat());
         let batch = Batch::new(operations, inputs, &all);
-        let registers = |of: &Vec<Place>| of.iter().map(|&place| batch.result(place)).collect();
+        let registers =
+            |of: &Vec<OperationIndex>| of.iter().map(|&place| batch.result(place)).collect();
         LaneProgram {
             results: sections.iter().map(registers).collect(),
             decided: (decisions.iter())

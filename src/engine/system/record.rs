@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{Coordinate, Named};
+use super::{ByName, Coordinate};
 use crate::algebra::SiUnit;
 use crate::mechanism::Mechanism;
 
@@ -29,7 +29,7 @@ impl NamedUnit {
 }
 
 /// The values of joints that are not cut, of joints by name.
-pub(crate) fn uncut(joints: &Named<f64>, cut: &[String]) -> Vec<f64> {
+pub(crate) fn uncut(joints: &ByName<f64>, cut: &[String]) -> Vec<f64> {
     let joints = joints.0.iter().filter(|(name, _)| !cut.contains(name));
     joints.map(|(_, value)| *value).collect()
 }

@@ -5,7 +5,7 @@ mod terms;
 use nalgebra::{DMatrix, DVector};
 
 use super::{Coordinate, FrameTwists, Held, Load, System};
-use crate::algebra::{Operation, Place, Recorded, needed, record, run};
+use crate::algebra::{Operation, OperationIndex, Recorded, needed, record, run};
 use crate::mechanism::{Configuration, JointKind, Mechanism, Point};
 use crate::number::{C, Dual, Gradient, Number};
 use crate::solve::{Equations, Homotopy};
@@ -25,7 +25,7 @@ type G = Gradient<Dual<Recorded>>;
 pub struct RestEquations {
     operations: Vec<Operation>,
     /// The gradient, its change with the parameters, and the Hessian row by row.
-    places: Vec<Place>,
+    places: Vec<OperationIndex>,
     terms: Vec<Term>,
     /// The joints that are free.
     pub joints: Vec<usize>,
@@ -160,7 +160,7 @@ impl RestEquations {
         (held, points): (&Held<f64>, &[Point]),
         at: &Configuration<f64>,
         inputs: &[Recorded],
-    ) -> Vec<Place> {
+    ) -> Vec<OperationIndex> {
         const LANES: usize = Gradient::LANES;
         let constant = |x: Recorded| G::constant(Dual::constant(x));
         let dimensions = mechanism.dimensions().map(G::from_f64);

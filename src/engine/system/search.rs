@@ -13,12 +13,12 @@ pub use random::{random_configuration, sampling_range};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::equations::{System, Work, solve};
+use super::equations::{System, SystemWork, solve};
 use super::question::{Count, Question};
 use crate::description::Role;
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Equations, Newton, Report, Stage, Stop, Watch};
+use crate::solve::{Equations, Newton, NewtonReport, Stage, Stop, Watch};
 use crate::system::{Freedoms, Held, HeldPlatform};
 
 /// Random starts within limits after the guess has failed: the same wherever one assembly is sought, so that all analyses
@@ -31,7 +31,7 @@ pub struct Attempt {
     /// End of the iteration.
     pub at: Configuration<f64>,
     /// Outcome of the iteration.
-    pub report: Report,
+    pub report: NewtonReport,
 }
 
 /// Outcome of a search.
@@ -57,7 +57,7 @@ pub struct Search<'a> {
     pub(super) newton: &'a Newton,
     pub(super) held: Held<f64>,
     pub(super) system: System<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
 }
 
 impl<'a> Search<'a> {

@@ -15,7 +15,7 @@ use super::{FoundValue, Spanned};
 
 /// A value that `ron` has found to be well formed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Piece<'a> {
+pub(super) struct RawValue<'a> {
     text: &'a str,
     start: usize,
 }
@@ -36,7 +36,7 @@ pub(super) enum PieceShape<'a> {
     /// A word followed by parentheses, with their contents.
     Word {
         word: &'a str,
-        content: Option<Piece<'a>>,
+        content: Option<RawValue<'a>>,
     },
 }
 
@@ -55,7 +55,7 @@ enum BytePlaces {
     Whole(Range<usize>),
 }
 
-impl<'a> Piece<'a> {
+impl<'a> RawValue<'a> {
     /// The value in a text that begins at byte `start` of the file.
     pub fn new(text: &'a str, start: usize) -> Self {
         let value = trimmed(text);
@@ -154,20 +154,20 @@ impl<'a> Piece<'a> {
     }
 
     /// The values of a list or a tuple.
-    pub fn elements(&self) -> Vec<Piece<'a>> {
+    pub fn elements(&self) -> Vec<RawValue<'a>> {
         let values = parts(self.text).into_iter();
         values.map(|(_, value)| self.part(value)).collect()
     }
 
     /// The keys and values of a map.
-    pub fn pairs(&self) -> Vec<(Piece<'a>, Piece<'a>)> {
+    pub fn pairs(&self) -> Vec<(RawValue<'a>, RawValue<'a>)> {
         let pairs = parts(self.text).into_iter();
         let pairs = pairs.filter_map(|(key, value)| Some((self.part(key?), self.part(value))));
         pairs.collect()
     }
 
     /// The names and values of named fields in parentheses.
-    pub fn fields(&self) -> Vec<(Spanned<&'a str>, Piece<'a>)> {
+    pub fn fields(&self) -> Vec<(Spanned<&'a str>, RawValue<'a>)> {
         let fields = parts(self.text).into_iter().filter_map(|(name, value)| {
             let (name, value) = (name?, self.part(value));
             Some((Spanned::new(word(name)?.0, self.place(name)), value))
@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn values_know_their_places_without_the_comments_around_them() {
         let text = "/* before */ ( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n ) // after";
-        let whole = Piece::new(text, 0);
+        let whole = RawValue::new(text, 0);
         let expected = "( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n )";
         assert_eq!(&text[whole.span()], expected);
         let [(a, one), (b, list)] = &whole.fields()[..] else {
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn shapes_are_told_apart() {
-        let found = |text: &str| Piece::new(text, 0).found();
+        let found = |text: &str| RawValue::new(text, 0).found();
         assert_eq!(found("-1.5"), FoundValue::Number);
         assert_eq!(found("\"a\""), FoundValue::Text);
         assert_eq!(found("r#\"a\"#"), FoundValue::Text);
@@ -305,7 +305,7 @@ mod tests {
     fn places_see_through_escapes() {
         let source = r#""a\u{3b8}\tb\x41\
             c\"d""#;
-        let literal = Piece::new(source, 100).text().unwrap();
+        let literal = RawValue::new(source, 100).text().unwrap();
         assert_eq!(literal.text, "aθ\tbAc\"d");
         let at = |part: &str| {
             let start = literal.text.find(part).unwrap();

@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use super::expectation::GroupForm;
-use super::piece::{Piece, PieceShape};
+use super::piece::{PieceShape, RawValue};
 use super::*;
 use crate::number::sorting::sort_by_key;
 use shapes::Fields;
@@ -40,7 +40,7 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<St
 fn first_word(text: &str) -> Option<&str> {
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
     let begin = syntax::begin(text, start)?;
-    match Piece::new(&text[begin..], begin).shape() {
+    match RawValue::new(&text[begin..], begin).shape() {
         PieceShape::Word { word, .. } => Some(word),
         _ => None,
     }
@@ -77,13 +77,13 @@ impl AxesDescription {
 
 fn read_with<'a, T>(
     text: &'a str,
-    read: impl Fn(&mut FileReader, Piece<'a>) -> Option<T>,
+    read: impl Fn(&mut FileReader, RawValue<'a>) -> Option<T>,
 ) -> (Option<T>, FileReader) {
     let mut reader = FileReader::default();
     // Some editors begin a file with a byte order mark.
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
     let description = match syntax::check(text, start) {
-        Ok(begin) => read(&mut reader, Piece::new(&text[begin..], begin)),
+        Ok(begin) => read(&mut reader, RawValue::new(&text[begin..], begin)),
         Err(problem) => {
             reader.problems.push(*problem);
             None
@@ -107,7 +107,7 @@ impl FileReader {
     /// A file of a group of fields, unless it has a later version.
     fn file<T>(
         &mut self,
-        piece: Piece,
+        piece: RawValue,
         group: FieldGroup,
         read: impl Fn(&mut Self, &mut Fields) -> T,
     ) -> Option<T> {
@@ -132,7 +132,7 @@ impl FileReader {
         !later
     }
 
-    fn version(&mut self, piece: Piece) {
+    fn version(&mut self, piece: RawValue) {
         let number = match piece.shape() {
             PieceShape::Number => piece.number().ok(),
             _ => None,
@@ -147,7 +147,7 @@ impl FileReader {
         }
     }
 
-    fn closure(&mut self, piece: Piece) -> Option<ClosureDescription> {
+    fn closure(&mut self, piece: RawValue) -> Option<ClosureDescription> {
         let (known, word) = (&ClosureKind::ALL, ClosureKind::word);
         let (kind, content) = self.word(
             piece,

@@ -16,9 +16,9 @@ use crate::geometry::{Pose, Quaternion, RollPitchYaw};
     feature = "schema",
     schemars(inline, with = "std::collections::BTreeMap<String, T>")
 )]
-pub struct Named<T>(pub Vec<(String, T)>);
+pub struct ByName<T>(pub Vec<(String, T)>);
 
-impl<T> Named<T> {
+impl<T> ByName<T> {
     /// The value of that name.
     pub fn get(&self, name: &str) -> Option<&T> {
         let mut found = self.0.iter().filter(|(n, _)| n == name);
@@ -41,31 +41,31 @@ impl<T> Named<T> {
     }
 }
 
-impl<T> FromIterator<(String, T)> for Named<T> {
+impl<T> FromIterator<(String, T)> for ByName<T> {
     fn from_iter<I: IntoIterator<Item = (String, T)>>(values: I) -> Self {
-        Named(values.into_iter().collect())
+        ByName(values.into_iter().collect())
     }
 }
 
-impl<T: Serialize> Serialize for Named<T> {
+impl<T: Serialize> Serialize for ByName<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByName<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct InOrder<T>(PhantomData<T>);
         impl<'de, T: Deserialize<'de>> Visitor<'de> for InOrder<T> {
-            type Value = Named<T>;
+            type Value = ByName<T>;
 
             fn expecting(&self, f: &mut Formatter) -> fmt::Result {
                 f.write_str("a map from names to values")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named<T>, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<ByName<T>, A::Error> {
                 let entries = std::iter::from_fn(|| map.next_entry().transpose());
-                entries.collect::<Result<_, _>>().map(Named)
+                entries.collect::<Result<_, _>>().map(ByName)
             }
         }
         deserializer.deserialize_map(InOrder(PhantomData))
@@ -131,7 +131,7 @@ pub struct FormulaNames {
 
 impl Mechanism {
     /// Values of the joint variables, rad or m, with the names of these.
-    pub fn named_joints(&self, values: &[f64]) -> Named<f64> {
+    pub fn named_joints(&self, values: &[f64]) -> ByName<f64> {
         let joints = self.joints().iter().zip(values);
         joints
             .map(|(joint, &value)| (joint.name.clone(), value))
@@ -139,7 +139,7 @@ impl Mechanism {
     }
 
     /// Values of all joints with their names, those of joints at which loops are cut after those of the joint variables.
-    pub fn all_joints(&self, at: &Configuration<f64>) -> Named<f64> {
+    pub fn all_joints(&self, at: &Configuration<f64>) -> ByName<f64> {
         let mut all = self.named_joints(&at.joints);
         let cut = self.closing_joints().iter().zip(self.closing_values(at));
         all.0

@@ -135,8 +135,8 @@ fn factors(wave: &Wave, block: &dyn Fn(&Powers) -> usize) -> Vec<(Wave, i32)> {
 }
 
 fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Product> {
-    type Place = (Powers, u64, Vec<SineTerm>, bool);
-    let mut sums: BTreeMap<Place, BigRational> = BTreeMap::new();
+    type SumKey = (Powers, u64, Vec<SineTerm>, bool);
+    let mut sums: BTreeMap<SumKey, BigRational> = BTreeMap::new();
     for (key, coefficient) in formula.terms() {
         let Key {
             wave,

@@ -21,27 +21,27 @@ pub use elimination::{LEAST_PIVOT, Pivot, eliminate};
 pub use operation::Operation;
 
 /// Index of an operation in its list.
-pub type Place = u32;
+pub type OperationIndex = u32;
 
 type OperationKey = (std::mem::Discriminant<Operation>, u64, u64);
 
 /// A comparison with zero that was decided by its value at the sample: the number, and true if it is negative there.
 /// The program holds only for inputs at which it comes out as there.
-pub type Decision = (Place, bool);
+pub type Decision = (OperationIndex, bool);
 
 /// The value of an operation, as long as the list it was written into is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Recorded(Place);
+pub struct Recorded(OperationIndex);
 
 /// The list, with the value of every operation at the sample.
 #[derive(Default)]
 struct List {
     operations: Vec<Operation>,
     values: Vec<f64>,
-    places: FxHashMap<OperationKey, Place>,
+    places: FxHashMap<OperationKey, OperationIndex>,
     sample: Vec<f64>,
     /// Angles whose sine and cosine are known.
-    turns: FxHashMap<Place, [Recorded; 2]>,
+    turns: FxHashMap<OperationIndex, [Recorded; 2]>,
     decisions: Vec<Decision>,
 }
 
@@ -94,7 +94,7 @@ pub fn run<T: Number>(operations: &[Operation], inputs: &[T], values: &mut Vec<T
 }
 
 /// The operations that some places need, with the places in them.
-pub fn needed(operations: &[Operation], places: &mut [Place]) -> Vec<Operation> {
+pub fn needed(operations: &[Operation], places: &mut [OperationIndex]) -> Vec<Operation> {
     let mut used = vec![false; operations.len()];
     places.iter().for_each(|place| used[*place as usize] = true);
     let mut at = vec![0; operations.len()];
@@ -111,7 +111,7 @@ pub fn needed(operations: &[Operation], places: &mut [Place]) -> Vec<Operation> 
         .enumerate()
         .filter(|(place, _)| used[*place])
     {
-        at[place] = kept.len() as Place;
+        at[place] = kept.len() as OperationIndex;
         kept.push(operation.placed(|of| at[of as usize]));
     }
     places
@@ -125,7 +125,7 @@ impl List {
         if let Some(&place) = self.places.get(&operation.key()) {
             return Recorded(place);
         }
-        let place = self.operations.len() as Place;
+        let place = self.operations.len() as OperationIndex;
         let input = |i: u32| self.sample.get(i as usize).copied().unwrap_or(f64::NAN);
         let value = operation.value(|x| self.values[x as usize], input);
         self.operations.push(operation);

@@ -7,14 +7,14 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 /// Numbers that an elimination divides by one another.
-pub trait Field:
+pub trait ExactField:
     Clone + Zero + for<'a> SubAssign<&'a Self> + for<'a> Mul<&'a Self, Output = Self>
 {
     /// One divided by the number, which is not zero.
     fn inverse(&self) -> Self;
 }
 
-impl Field for BigRational {
+impl ExactField for BigRational {
     fn inverse(&self) -> Self {
         self.recip()
     }
@@ -67,7 +67,7 @@ impl Mul<&Residue> for Residue {
     }
 }
 
-impl Field for Residue {
+impl ExactField for Residue {
     /// x^(p − 2), as x^(p − 1) = 1 (Fermat).
     fn inverse(&self) -> Self {
         let (mut power, mut square) = (Residue(1), *self);

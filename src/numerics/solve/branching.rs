@@ -1,6 +1,6 @@
 //! Points where branches of a curve of solutions cross: there the Jacobian loses rank.
 
-use super::continuation::{Continuation, Place, SolutionCurve, back};
+use super::continuation::{Continuation, CurvePoint, SolutionCurve, back};
 use crate::linear::{
     BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, dot, norm, product,
 };
@@ -153,7 +153,7 @@ impl Continuation {
         curve: &mut C,
         from: &C::Point,
         direction: &[f64],
-    ) -> Option<(Place<C::Point>, f64)> {
+    ) -> Option<(CurvePoint<C::Point>, f64)> {
         let mut length = 0.2 * self.longest;
         for _ in 0..8 {
             let ahead: Vec<f64> = direction.iter().map(|x| x * length).collect();
@@ -175,11 +175,15 @@ impl Continuation {
 
 impl<P: Clone> BranchPoint<P> {
     /// The point as a place of the branch along a direction: for bracketing only, as its Jacobian is singular.
-    pub fn place<C: SolutionCurve<Point = P>>(&self, curve: &mut C, direction: &[f64]) -> Place<P> {
+    pub fn place<C: SolutionCurve<Point = P>>(
+        &self,
+        curve: &mut C,
+        direction: &[f64],
+    ) -> CurvePoint<P> {
         let (residual, jacobian) = curve.linearise(&self.at);
         let (rows, unknowns) = (residual.len(), direction.len());
         let regular = unknowns.saturating_sub(self.freedoms);
-        Place {
+        CurvePoint {
             at: self.at.clone(),
             tangent: direction.to_vec(),
             decomposition: Decomposition::of_rank(rows, unknowns, &jacobian, regular),

@@ -19,7 +19,7 @@
 mod place;
 
 use crate::number::tolerance::SOLVED;
-pub use place::Place;
+pub use place::CurvePoint;
 
 use crate::linear::{Decomposition, RowGroup, dot, norm};
 
@@ -81,7 +81,7 @@ impl Default for Continuation {
 
 impl Continuation {
     /// The regular place of the curve nearest to a point, by Gauss–Newton steps of least length.
-    /// The tangent's sense is arbitrary; see [`Place::towards`].
+    /// The tangent's sense is arbitrary; see [`CurvePoint::towards`].
     ///
     /// # Errors
     /// If the steps do not arrive, or the point they arrive at is not regular.
@@ -89,7 +89,7 @@ impl Continuation {
         &self,
         curve: &mut C,
         at: C::Point,
-    ) -> Result<Place<C::Point>, StepFailure> {
+    ) -> Result<CurvePoint<C::Point>, StepFailure> {
         self.settle_after(curve, at, f64::INFINITY)
     }
 
@@ -99,7 +99,7 @@ impl Continuation {
         curve: &mut C,
         mut at: C::Point,
         mut before: f64,
-    ) -> Result<Place<C::Point>, StepFailure> {
+    ) -> Result<CurvePoint<C::Point>, StepFailure> {
         const STEPS: usize = 30;
         let unknowns = curve.unknowns();
         for _ in 0..STEPS {
@@ -143,7 +143,7 @@ impl Continuation {
                     at = curve.displaced(&at, &step);
                 }
                 let tangent = decomposition.null_space().swap_remove(0);
-                return Ok(Place {
+                return Ok(CurvePoint {
                     at,
                     tangent,
                     jacobian,
@@ -160,8 +160,8 @@ impl Continuation {
     pub fn restored<C: SolutionCurve>(
         &self,
         curve: &mut C,
-        place: &Place<C::Point>,
-    ) -> Option<Place<C::Point>> {
+        place: &CurvePoint<C::Point>,
+    ) -> Option<CurvePoint<C::Point>> {
         match place.jacobian.is_empty() && place.decomposition.groups().is_none() {
             true => Some((self.settle(curve, place.at.clone()).ok()?).towards(&place.tangent)),
             false => Some(place.clone()),
@@ -175,9 +175,9 @@ impl Continuation {
     pub fn step<C: SolutionCurve>(
         &self,
         curve: &mut C,
-        from: &Place<C::Point>,
+        from: &CurvePoint<C::Point>,
         length: f64,
-    ) -> Result<(Place<C::Point>, f64), StepFailure> {
+    ) -> Result<(CurvePoint<C::Point>, f64), StepFailure> {
         let to = self
             .across(curve, from, length)
             .ok_or(StepFailure::TooShort)?;
@@ -192,9 +192,9 @@ impl Continuation {
     pub fn across<C: SolutionCurve>(
         &self,
         curve: &mut C,
-        from: &Place<C::Point>,
+        from: &CurvePoint<C::Point>,
         length: f64,
-    ) -> Option<Place<C::Point>> {
+    ) -> Option<CurvePoint<C::Point>> {
         if from.decomposition.groups().is_some() {
             return self.settled_ahead(curve, from, length);
         }
@@ -207,9 +207,9 @@ impl Continuation {
     fn settled_ahead<C: SolutionCurve>(
         &self,
         curve: &mut C,
-        from: &Place<C::Point>,
+        from: &CurvePoint<C::Point>,
         length: f64,
-    ) -> Option<Place<C::Point>> {
+    ) -> Option<CurvePoint<C::Point>> {
         let ahead: Vec<f64> = from.tangent.iter().map(|x| x * length).collect();
         let predicted = curve.displaced(&from.at, &ahead);
         let place = self.settle(curve, predicted.clone()).ok()?;
@@ -221,7 +221,7 @@ impl Continuation {
     pub fn ahead<C: SolutionCurve>(
         &self,
         curve: &mut C,
-        from: &Place<C::Point>,
+        from: &CurvePoint<C::Point>,
         length: f64,
     ) -> Option<(C::Point, f64)> {
         const STEPS: usize = 40;
@@ -255,10 +255,10 @@ impl Continuation {
     pub fn root<C: SolutionCurve>(
         &self,
         curve: &mut C,
-        from: &Place<C::Point>,
-        to: &Place<C::Point>,
-        f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
-    ) -> Place<C::Point> {
+        from: &CurvePoint<C::Point>,
+        to: &CurvePoint<C::Point>,
+        f: &mut dyn FnMut(&mut C, &CurvePoint<C::Point>) -> f64,
+    ) -> CurvePoint<C::Point> {
         const EVALUATIONS: usize = 80;
         let back = from.is_singular();
         let turned = back.then(|| [to, from].map(|place| place.clone().reversed()));
@@ -317,7 +317,7 @@ impl Continuation {
     }
 
     /// A length for the next step from that of the last and the change along it; of many unknowns the fastest counts.
-    pub fn next_length<P>(&self, length: f64, changed: f64, from: &Place<P>) -> f64 {
+    pub fn next_length<P>(&self, length: f64, changed: f64, from: &CurvePoint<P>) -> f64 {
         let wanted = 0.7 * self.change / changed.max(1e-3);
         let fastest = match from.decomposition.groups() {
             Some(_) => from.tangent.iter().fold(0.0f64, |m, x| m.max(x.abs())),
@@ -328,7 +328,7 @@ impl Continuation {
 }
 
 /// Relative change of the Jacobian between two places, ‖J⁺(J₁ − J₀)‖; of a large one, the largest of any group of rows.
-pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
+pub(super) fn change<P>(from: &CurvePoint<P>, to: &CurvePoint<P>) -> f64 {
     if let (Some(before), Some(after)) = (from.decomposition.groups(), to.decomposition.groups()) {
         let mut changes = before.iter().zip(after).map(|(a, b)| group_change(a, b));
         let largest = changes.try_fold(0.0f64, |m, change| Some(m.max(change?)));

@@ -15,7 +15,7 @@ use crate::number::C;
 use crate::number::tolerance::SAME;
 
 /// Square systems with parameters.
-pub trait Family: Sync {
+pub trait ParametricSystem: Sync {
     /// The way between two members.
     type Way<'f>: Homotopy
     where
@@ -78,14 +78,14 @@ impl Default for Monodromy {
 
 /// Known solutions of one member, found again by a random projection of their keys.
 #[derive(Default)]
-struct Known {
+struct KnownSolutions {
     solutions: Vec<Vec<C>>,
     keys: Vec<Vec<C>>,
 }
 
-impl Known {
+impl KnownSolutions {
     /// The number of a solution, and true if it is new.
-    fn place<F: Family>(&mut self, family: &F, x: Vec<C>) -> (usize, bool) {
+    fn place<F: ParametricSystem>(&mut self, family: &F, x: Vec<C>) -> (usize, bool) {
         let key = family.key(&x);
         if let Some(place) = place(&self.keys, &key) {
             return (place, false);
@@ -107,7 +107,7 @@ pub fn place(keys: &[Vec<C>], key: &[C]) -> Option<usize> {
 }
 
 /// The end of a path through members, polished; `None` if it was lost, and true if it went to infinity.
-pub fn followed<F: Family>(
+pub fn followed<F: ParametricSystem>(
     family: &F,
     members: &[&[C]],
     start: &[C],
@@ -151,7 +151,7 @@ pub fn followed<F: Family>(
 }
 
 impl Monodromy {
-    fn ends<F: Family>(
+    fn ends<F: ParametricSystem>(
         &self,
         family: &F,
         members: [&[C]; 3],
@@ -169,7 +169,7 @@ impl Monodromy {
     }
 
     /// Spreads a solution of a member.
-    pub fn spread<F: Family>(
+    pub fn spread<F: ParametricSystem>(
         &self,
         family: &F,
         member: &[C],
@@ -180,7 +180,7 @@ impl Monodromy {
         let other = family.member(&mut rng);
         let ends = [member, &other[..]];
         let mut ways: Vec<Vec<C>> = (0..self.ways).map(|_| family.member(&mut rng)).collect();
-        let mut known = [Known::default(), Known::default()];
+        let mut known = [KnownSolutions::default(), KnownSolutions::default()];
         known[0].place(family, solution);
         // for each way and end what was followed along it
         let mut done: Vec<[Vec<bool>; 2]> = vec![[Vec::new(), Vec::new()]; ways.len()];
@@ -293,7 +293,7 @@ mod tests {
     /// x⁵ + a x² + b x + c = 0, whose group is that of all permutations.
     struct Quintic;
 
-    struct Line(Vec<C>, Vec<C>);
+    struct QuinticPath(Vec<C>, Vec<C>);
 
     fn value(p: &[C], x: C) -> (C, C) {
         let (x2, x4) = (x * x, x * x * x * x);
@@ -303,14 +303,14 @@ mod tests {
         )
     }
 
-    impl Line {
+    impl QuinticPath {
         fn at(&self, s: C) -> Vec<C> {
             let pairs = self.0.iter().zip(&self.1);
             pairs.map(|(a, b)| *a + s * (*b - *a)).collect()
         }
     }
 
-    impl Homotopy for Line {
+    impl Homotopy for QuinticPath {
         fn settle(&self, _: &mut [C]) {}
         fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
             let d: Vec<C> = self.0.iter().zip(&self.1).map(|(a, b)| b - a).collect();
@@ -328,13 +328,13 @@ mod tests {
         }
     }
 
-    impl Family for Quintic {
-        type Way<'f> = Line;
+    impl ParametricSystem for Quintic {
+        type Way<'f> = QuinticPath;
         fn count(&self) -> usize {
             1
         }
-        fn way(&self, from: &[C], to: &[C]) -> Line {
-            Line(from.to_vec(), to.to_vec())
+        fn way(&self, from: &[C], to: &[C]) -> QuinticPath {
+            QuinticPath(from.to_vec(), to.to_vec())
         }
         fn member(&self, rng: &mut Pcg64) -> Vec<C> {
             (0..3).map(|_| random(rng) * 3.0).collect()

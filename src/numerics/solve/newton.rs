@@ -42,7 +42,7 @@ pub enum Stop {
 
 /// Outcome of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Report {
+pub struct NewtonReport {
     /// Reason for which it stopped.
     pub stop: Stop,
     /// Accepted steps.
@@ -59,7 +59,7 @@ impl Newton {
         point: &mut E::Point,
         trial: &mut E::Point,
         work: &mut E::Work,
-    ) -> Report {
+    ) -> NewtonReport {
         let mut size = equations.linearise(point, work);
         let mut damping = 0.0;
         let mut slow = 0;
@@ -140,7 +140,7 @@ impl Newton {
         work: &mut E::Work,
         mut steps: usize,
         mut size: Size,
-    ) -> Report {
+    ) -> NewtonReport {
         const MOST: usize = 20;
         for _ in 0..MOST {
             if size.largest == 0.0 {
@@ -166,6 +166,6 @@ impl Newton {
     }
 }
 
-fn report(stop: Stop, steps: usize, size: Size) -> Report {
-    Report { stop, steps, size }
+fn report(stop: Stop, steps: usize, size: Size) -> NewtonReport {
+    NewtonReport { stop, steps, size }
 }

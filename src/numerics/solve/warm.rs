@@ -119,7 +119,7 @@ impl Warm {
     ///
     /// On failure `point` is left as it was, a start for [`Newton`](super::Newton), and the past is forgotten.
     #[inline]
-    pub fn solve<E: Equations<Number = f64>>(
+    pub fn solve<E: Equations<Scalar = f64>>(
         &self,
         equations: &E,
         point: &mut E::Point,
@@ -153,7 +153,7 @@ impl Warm {
     }
 
     #[inline]
-    fn attempt<E: Equations<Number = f64>>(
+    fn attempt<E: Equations<Scalar = f64>>(
         &self,
         equations: &E,
         point: &E::Point,

@@ -9,7 +9,7 @@ pub use picture::{front, panel, panels_moving};
 use super::document::{Cell, Document, Table, TableOf};
 use super::quantity::{form, quantity};
 use super::report::{Report, Rows};
-use crate::analysis::design::{Cognate, Design, DesignReport, Deviation, Exact, Goal, Moves};
+use crate::analysis::design::{Cognate, DesignReport, Deviation, Exact, FoundDesign, Goal, Moves};
 use crate::description::{count, quoted};
 use defects::{defects, missed};
 
@@ -23,8 +23,8 @@ const SHOWN: usize = 10;
 fn columns<C: Into<Cell>>(
     report: &DesignReport,
     shown: usize,
-    value: impl Fn(&Design, usize) -> C,
-) -> TableOf<(usize, &Design)> {
+    value: impl Fn(&FoundDesign, usize) -> C,
+) -> TableOf<(usize, &FoundDesign)> {
     Table::of((1..).zip(report.designs.iter().take(shown)))
         .numbers("design", |(i, _)| i)
         .each(report.varied.iter().map(|of| &of.name), |(_, of), k| {
@@ -43,12 +43,12 @@ fn figures(report: &DesignReport) -> impl Iterator<Item = &String> {
 }
 
 /// The values of a design for the goals.
-fn worth(of: &Design) -> [Option<f64>; 2] {
+fn worth(of: &FoundDesign) -> [Option<f64>; 2] {
     [of.goal, of.second_goal]
 }
 
 /// The defects of a design, or how it moves without.
-pub fn verdict(report: &DesignReport, design: &Design) -> String {
+pub fn verdict(report: &DesignReport, design: &FoundDesign) -> String {
     let driver = report.driver.as_deref().unwrap_or_default();
     match design.driver {
         _ if !design.defects.is_empty() => defects(&design.defects),
@@ -59,7 +59,7 @@ pub fn verdict(report: &DesignReport, design: &Design) -> String {
 }
 
 /// The largest deviation of each unit, and where it is.
-pub fn largest(design: &Design) -> String {
+pub fn largest(design: &FoundDesign) -> String {
     let mut largest: Vec<&Deviation> = Vec::new();
     for of in &design.deviations {
         match largest.iter_mut().find(|known| known.unit == of.unit) {
@@ -107,7 +107,7 @@ fn outside(report: &DesignReport, exact: &Exact) -> String {
 }
 
 /// The value of the goal of a design, in words.
-fn goal_of(report: &DesignReport, design: &Design) -> String {
+fn goal_of(report: &DesignReport, design: &FoundDesign) -> String {
     if report.second_goal.is_some() && report.exact.is_none() {
         return ", and none is beaten by another one in both goals".into();
     }
@@ -198,7 +198,7 @@ fn squares(sum: f64) -> String {
 }
 
 /// The cognates of a design by their numbers in the list.
-fn listed(of: &Design) -> String {
+fn listed(of: &FoundDesign) -> String {
     let numbers = of.cognates.iter().map(|of| match of.design {
         Some(number) => number.to_string(),
         None => "not listed".to_owned(),
@@ -220,10 +220,11 @@ impl Report for DesignReport {
         let mut document = Document::new(&self.mechanism, answer(self))
             .yes_if(self.designs.iter().any(|of| of.defects.is_empty()));
         if !self.varied.is_empty() {
-            let value =
-                |design: &Design, k: usize| Cell::quantity(design.values[k], self.varied[k].unit);
+            let value = |design: &FoundDesign, k: usize| {
+                Cell::quantity(design.values[k], self.varied[k].unit)
+            };
             let cognates = self.designs.iter().any(|of| !of.cognates.is_empty());
-            let goal = |of: &Design, k: usize| match (goals(self).nth(k), worth(of)[k]) {
+            let goal = |of: &FoundDesign, k: usize| match (goals(self).nth(k), worth(of)[k]) {
                 (Some(goal), Some(value)) => Cell::quantity(value, goal.unit),
                 _ => "unknown".into(),
             };
@@ -247,7 +248,7 @@ impl Report for DesignReport {
                 .numbers("deviation", |of| quantity(of.deviation, of.unit));
             document = document.table("Deviations of the first", table);
         }
-        let met = |of: &Design| of.sum_of_squares < MET;
+        let met = |of: &FoundDesign| of.sum_of_squares < MET;
         let first = self.designs.first();
         if let Some(missing) = first.filter(|of| !met(of)) {
             let pairs = self.varied.iter().zip(&missing.values);

@@ -191,8 +191,8 @@ fn found(report: &AssemblyReport) -> String {
 }
 
 fn joints(report: &AssemblyReport) -> TableOf<(&JointVariable, f64)> {
-    type Joint<'a> = (&'a JointVariable, f64);
-    let limits = |(of, _): Joint| {
+    type JointRow<'a> = (&'a JointVariable, f64);
+    let limits = |(of, _): JointRow| {
         let (low, high) = of.limits?;
         let outside = if of.within_limits { "" } else { ", outside" };
         let [low, high] = [low, high].map(|limit| quantity(limit, of.unit));

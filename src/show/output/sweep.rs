@@ -95,8 +95,9 @@ fn parts(motion: &MotionReport) -> Vec<Section> {
 
 /// The least and greatest values of the quantities, and where they are.
 fn extremes(motion: &MotionReport) -> Section {
-    type Side = fn(&Extremum) -> &Option<Extreme>;
-    let sides: [(&str, Side); 2] = [("least", |of| &of.least), ("greatest", |of| &of.greatest)];
+    type ExtremeOf = fn(&Extremum) -> &Option<Extreme>;
+    let sides: [(&str, ExtremeOf); 2] =
+        [("least", |of| &of.least), ("greatest", |of| &of.greatest)];
     let driven = words::driven(motion);
     let table = Table::of(&motion.extremes).words("quantity", |of| &of.name);
     let table = sides.into_iter().fold(table, |table, (word, side)| {

@@ -26,7 +26,7 @@ fn what_does_not_depend_on_inputs_is_not_written() {
         assert_eq!((-sin, cos), x.sin_cos());
         (x * y + sin).place()
     });
-    let used = |place: Place| operations[place as usize].operands().count();
+    let used = |place: OperationIndex| operations[place as usize].operands().count();
     assert_eq!(used(kept), 2);
 }
 

@@ -12,7 +12,7 @@ pub(super) use real::real_solution;
 
 use super::Wanted;
 use super::family::{C, Coordinates, KnownBound, size};
-use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
+use super::report::{AssembliesReport, ByName, ComplexAssembly, Continuum, Fit, ListedJoint};
 use super::search::GenericSolutions;
 use super::track::{END, End, Ends, Local, ParameterHomotopy, are_one};
 use crate::algebra::SiUnit;
@@ -21,14 +21,14 @@ use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
 use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
-use crate::system::{Held, HeldPlatform, System, Work};
+use crate::system::{Held, HeldPlatform, System, SystemWork};
 use real::{complex_key, key, order, tidied, tidied_complex};
 
 /// Points that Newton's method reached from so many starts.
 pub(super) type Starts<'a> = dyn Fn(usize) -> Vec<Configuration<f64>> + 'a;
 
 /// The question in real numbers.
-pub(super) struct Question<'a> {
+pub(super) struct TargetProblem<'a> {
     pub mechanism: &'a Mechanism,
     pub coordinates: &'a Coordinates,
     /// Number of ways in which universal joints stand in each pose.
@@ -89,7 +89,7 @@ pub(super) struct Gathered {
     merged: usize,
 }
 
-impl Question<'_> {
+impl TargetProblem<'_> {
     /// The report for the ends of all paths, and for points that Newton's method reached from
     /// starts. `homotopy` stays at the target inputs.
     pub fn answer(
@@ -209,7 +209,7 @@ impl Question<'_> {
         &self,
         x: &[C],
         singular: bool,
-        work: &mut Work<f64>,
+        work: &mut SystemWork<f64>,
     ) -> Option<Configuration<f64>> {
         real_solution(
             x,
@@ -347,8 +347,8 @@ impl Question<'_> {
             parts.map(pair).collect()
         });
         ComplexAssembly {
-            joints: Named(joints.zip(at.joints.iter().map(pair)).collect()),
-            platforms: Named(platforms.zip(poses).collect()),
+            joints: ByName(joints.zip(at.joints.iter().map(pair)).collect()),
+            platforms: ByName(platforms.zip(poses).collect()),
             multiplicity,
             condition,
         }

@@ -19,7 +19,7 @@ use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{ClosureKind, Configuration, Dimensions, EVERY_ROW, Kept, Mechanism};
 use crate::number::{Number, real};
 use crate::system::{Held, HeldPlatform, RegularFreedoms, System};
-use varied::Varied;
+use varied::VariedDimension;
 
 /// A member of the family: values of the independent parameters, then numbers of other dimensions, and values of the
 /// inputs.
@@ -38,7 +38,7 @@ pub(crate) struct Family {
     /// Values the mechanism itself has.
     pub parameters: Vec<C>,
     /// Dimensions that no parameter gives, each with a number of its own among the parameters.
-    varied: Vec<Varied>,
+    varied: Vec<VariedDimension>,
     /// True if the dimensions make the family: there are no inputs, or they only spin links, which carries no solution
     /// to another.
     pub by_dimensions: bool,

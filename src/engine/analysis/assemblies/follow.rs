@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::real_solution;
 use super::family::{C, Family, Input};
-use super::report::Named;
+use super::report::ByName;
 use super::track::{END, START, located, polish};
 use super::{AssembliesError, AssemblySolver, Wanted};
 use crate::mechanism::{Configuration, Mechanism, Variable};
@@ -22,9 +22,9 @@ pub struct Fold {
     /// The part of the way that was gone, from 0 to 1.
     pub fraction: f64,
     /// The inputs there: joints in rad or m, platform coordinates as `platform.x`.
-    pub inputs: Named<f64>,
+    pub inputs: ByName<f64>,
     /// Joint values there, rad or m.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
     /// True if the two modes turn back there, at a place known to the last digits. Otherwise they
     /// cross, or no more is known than that the mode cannot be followed beyond.
     pub turns_back: bool,

@@ -6,8 +6,8 @@ use crate::algebra::SiUnit;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::Complex;
+pub use crate::system::{ByName, Unfit};
 use crate::system::{Gap, is_origin, uncut};
-pub use crate::system::{Named, Unfit};
 
 /// The pose of a platform in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,12 +29,12 @@ pub struct Assembly {
     pub mode: usize,
     /// Joint values in rad or m, those of joints at which loops are cut last. Angles lie in (−π, π], or are that and whole
     /// turns where the limits of the joint ask for it.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
     /// The joints at which loops are cut.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cut: Vec<String>,
     /// Platform poses.
-    pub platforms: Named<PoseReport>,
+    pub platforms: ByName<PoseReport>,
     /// Position in ground, in m, from which its [configuration](Assembly::configuration) measures positions: the origin
     /// unless the mechanism is far from it.
     #[serde(default, skip_serializing_if = "is_origin")]
@@ -85,7 +85,7 @@ impl Assembly {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClosestApproach {
     /// The gap of each closure.
-    pub gaps: Named<Gap>,
+    pub gaps: ByName<Gap>,
     /// The closure with the largest gap.
     pub worst: String,
     /// True if no small motion comes closer.
@@ -95,9 +95,9 @@ pub struct ClosestApproach {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub squared_lengths: bool,
     /// Joint values there, rad or m.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
     /// Platform poses there.
-    pub platforms: Named<PoseReport>,
+    pub platforms: ByName<PoseReport>,
 }
 
 /// Number of held inputs compared with the freedoms of the mechanism.
@@ -347,9 +347,9 @@ impl Proof {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ComplexAssembly {
     /// Joint values as (real, imaginary), rad or m.
-    pub joints: Named<[f64; 2]>,
+    pub joints: ByName<[f64; 2]>,
     /// Positions (3, m) and quaternions (4) of the platforms.
-    pub platforms: Named<Vec<[f64; 2]>>,
+    pub platforms: ByName<Vec<[f64; 2]>>,
     /// Number of solutions that meet here.
     pub multiplicity: usize,
     /// Quotient of the largest and the smallest singular value of the dimensionless closure

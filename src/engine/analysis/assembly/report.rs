@@ -7,7 +7,7 @@ use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::system::{
-    FrameRecord, Gap, Moved, Named, PlatformRecord, infinite_if_null, is_origin, uncut,
+    ByName, FrameRecord, Gap, Moved, PlatformRecord, infinite_if_null, is_origin, uncut,
 };
 
 /// Freedoms that the held coordinates leave.
@@ -125,27 +125,27 @@ pub struct AssemblyReport {
     pub redundant: Vec<String>,
     /// Joint values of the assembled configuration, or of the closest approach, rad or m, those of joints at which loops
     /// are cut last.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
     /// The joints at which loops are cut.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cut: Vec<String>,
     /// Values there of the outputs of the file that depend on joints alone, in SI units and rad.
-    #[serde(default, skip_serializing_if = "Named::is_empty")]
-    pub outputs: Named<f64>,
+    #[serde(default, skip_serializing_if = "ByName::is_empty")]
+    pub outputs: ByName<f64>,
     /// Their units.
     #[serde(skip)]
     pub output_units: Vec<SiUnit>,
     /// Poses of the platforms there.
-    pub platforms: Named<PlatformRecord>,
+    pub platforms: ByName<PlatformRecord>,
     /// Tip frames of the chains and frames of the platforms there; of a file of joint coordinates, of the bodies and points
     /// that it names.
-    pub frames: Named<FrameRecord>,
+    pub frames: ByName<FrameRecord>,
     /// Position in ground, in m, from which a [configuration](AssemblyReport::configuration) measures positions: the
     /// origin unless the mechanism is far from it.
     #[serde(default, skip_serializing_if = "is_origin")]
     pub centre: [f64; 3],
     /// Gap of each closure.
-    pub gaps: Named<Gap>,
+    pub gaps: ByName<Gap>,
     /// The joints, in the order of their values.
     pub variables: Vec<JointVariable>,
     /// True if rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use crate::number::residue::Field;
+use crate::number::residue::ExactField;
 
 /// A linear combination: entries by column, none of them zero, and the formulas that it combines.
 #[derive(Clone)]
@@ -13,7 +13,7 @@ pub(super) struct Combination<T> {
     pub of: BTreeSet<usize>,
 }
 
-impl<T: Field> Combination<T> {
+impl<T: ExactField> Combination<T> {
     /// Entries that combine no formulas.
     pub fn alone(entries: Vec<(usize, T)>) -> Self {
         Combination {
@@ -55,7 +55,7 @@ impl<T: Field> Combination<T> {
 /// Combinations in echelon form, by the column of the first entry, which is 1.
 pub(super) struct Echelon<T>(FxHashMap<usize, Combination<T>>);
 
-impl<T: Field> Echelon<T> {
+impl<T: ExactField> Echelon<T> {
     pub fn new(rows: impl Iterator<Item = Combination<T>>) -> Self {
         let mut echelon = Echelon(FxHashMap::default());
         for row in rows {

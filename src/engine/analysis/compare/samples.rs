@@ -8,7 +8,7 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::mechanism::{Configuration, Mechanism, Role};
 use crate::solve::{Newton, Stop};
-use crate::system::{Held, HeldPlatform, System, Work};
+use crate::system::{Held, HeldPlatform, System, SystemWork};
 
 /// Assembled configurations remembered as starts: with more of them none is much nearer, but the search for the nearest
 /// takes longer.
@@ -20,7 +20,7 @@ pub(super) struct SampleStream<'a> {
     count: usize,
     rng: Pcg64Mcg,
     system: System<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
     /// Joints with given values: the actuated ones, or all where there are no closures.
     held: Vec<bool>,
     /// True if any joint is held.

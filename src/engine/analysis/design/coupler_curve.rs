@@ -10,7 +10,7 @@
 use rand_pcg::Pcg64;
 
 use crate::number::{C, Number};
-use crate::solve::monodromy::{Family, followed, place, random};
+use crate::solve::monodromy::{ParametricSystem, followed, place, random};
 use crate::solve::{Homotopy, Stage, Tracker, Watch, each};
 use crate::system::SideRows;
 
@@ -21,7 +21,7 @@ pub(super) type Z = [C; 2];
 const SIZE: usize = 8;
 
 /// Points after the first.
-type Moves = [Z; SIZE];
+type PointDisplacements = [Z; SIZE];
 
 /// A four-bar by its coupler curve, in the first of its positions; all vectors are from the point on its coupler.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,22 +94,22 @@ impl FourBar {
     /// T of the coupler where its point has moved by δ; `None` where it does not follow.
     pub fn turn(&self, move_: Z) -> Option<C> {
         let sides = self.sides(move_);
-        let turn = Sides::turn(&sides);
+        let turn = LinkCoefficients::turn(&sides);
         turn.is_finite().then_some(turn)
     }
 
-    fn sides(&self, d: Z) -> [Sides; 2] {
-        [0, 1].map(|i| Sides::of(self.pivots[i], self.pins[i], d))
+    fn sides(&self, d: Z) -> [LinkCoefficients; 2] {
+        [0, 1].map(|i| LinkCoefficients::of(self.pivots[i], self.pins[i], d))
     }
 }
 
 /// α, β, γ of one link.
 #[derive(Clone, Copy)]
-struct Sides([C; 3]);
+struct LinkCoefficients([C; 3]);
 
-impl Sides {
+impl LinkCoefficients {
     fn of(a: Z, x: Z, d: Z) -> Self {
-        Sides([
+        LinkCoefficients([
             x[0] * (d[1] - a[1]),
             x[1] * (d[0] - a[0]),
             d[0] * d[1] - d[0] * a[1] - d[1] * a[0] + x[0] * a[1] + x[1] * a[0],
@@ -117,7 +117,7 @@ impl Sides {
     }
 
     /// N₁ = βγ' − β'γ, N₂ = γα' − γ'α, D = αβ' − α'β: T = N₁/D.
-    fn parts([Sides([a, b, c]), Sides([e, f, g])]: &[Self; 2]) -> [C; 3] {
+    fn parts([LinkCoefficients([a, b, c]), LinkCoefficients([e, f, g])]: &[Self; 2]) -> [C; 3] {
         [*b * *g - *f * *c, *c * *e - *g * *a, *a * *f - *e * *b]
     }
 
@@ -128,19 +128,19 @@ impl Sides {
 }
 
 /// True if D = 0, as where both links are one or both x or both x̄ vanish: such links meet the equations for any points.
-fn alike(both: &[Sides; 2]) -> bool {
+fn alike(both: &[LinkCoefficients; 2]) -> bool {
     const ALIKE: f64 = 1e-18;
-    let size = |of: &Sides| of.0.iter().map(|x| x.norm_sqr()).sum::<f64>();
-    let det = Sides::parts(both)[2];
+    let size = |of: &LinkCoefficients| of.0.iter().map(|x| x.norm_sqr()).sum::<f64>();
+    let det = LinkCoefficients::parts(both)[2];
     det.norm_sqr() <= ALIKE * size(&both[0]) * size(&both[1])
 }
 
 /// N₁N₂ − D² for one point, with its derivatives by the coordinates of the four-bar and by δ and δ̄.
 fn row(x: &FourBar, d: Z) -> (C, [C; SIZE], Z) {
     let both = x.sides(d);
-    let [n, m, det] = Sides::parts(&both);
+    let [n, m, det] = LinkCoefficients::parts(&both);
     let twice = det + det;
-    let [Sides([a, b, c]), Sides([e, f, g])] = both;
+    let [LinkCoefficients([a, b, c]), LinkCoefficients([e, f, g])] = both;
     let by = [
         [-(n * g) - twice * f, g * m + twice * e, n * e - f * m],
         [n * c + twice * b, -(c * m) - twice * a, b * m - n * a],
@@ -162,8 +162,8 @@ fn row(x: &FourBar, d: Z) -> (C, [C; SIZE], Z) {
 
 /// The straight way between the moves of two sets of points.
 pub(super) struct PointsWay {
-    from: Moves,
-    rates: Moves,
+    from: PointDisplacements,
+    rates: PointDisplacements,
     rows: SideRows<C>,
     /// The step that cancels the residual, and dx/ds.
     steps: [[C; SIZE]; 2],
@@ -237,11 +237,11 @@ impl Homotopy for PointsWay {
 /// All sets of nine points; solutions are classes of six.
 pub(super) struct NinePoints;
 
-fn moves(values: &[C]) -> Moves {
+fn moves(values: &[C]) -> PointDisplacements {
     std::array::from_fn(|k| [values[2 * k], values[2 * k + 1]])
 }
 
-impl Family for NinePoints {
+impl ParametricSystem for NinePoints {
     type Way<'f> = PointsWay;
 
     fn count(&self) -> usize {

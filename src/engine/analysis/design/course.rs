@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::sorting::sort_by;
-use crate::solve::{Continuation, Place, SolutionCurve, Stage, StepFailure, Watch};
+use crate::solve::{Continuation, CurvePoint, SolutionCurve, Stage, StepFailure, Watch};
 use crate::system::{Curve, Event, Held, Segment, Walk};
 
 /// Steps after which a curve without end is given up.
@@ -35,7 +35,7 @@ pub struct DesignCourse {
     pub turn: f64,
 }
 
-type CoursePlace = Place<Configuration<f64>>;
+type CoursePlace = CurvePoint<Configuration<f64>>;
 
 /// Follows the curve through the first position once round, or from there to both of its ends, in steps that cannot change
 /// branch unnoticed; positions are met between the ends of a step, at the place of the curve that lies across from them.

@@ -8,7 +8,7 @@ use super::search::{FoundEnd, SearchedEnds, Task};
 use super::symmetry::{Flip, Symmetries};
 use crate::mechanism::turn_near;
 use crate::number::{C, Number};
-use crate::solve::monodromy::{Family, Monodromy, Spread, followed, place, random};
+use crate::solve::monodromy::{Monodromy, ParametricSystem, Spread, followed, place, random};
 use crate::solve::{Homotopy, LevenbergMarquardt, Stage, Tracker, Watch, each};
 use crate::system::{Bundled, Copies, PathForm};
 
@@ -133,7 +133,7 @@ impl Synthesis<'_, '_, '_> {
     }
 }
 
-impl<'b, 'm> Family for Synthesis<'_, 'b, 'm> {
+impl<'b, 'm> ParametricSystem for Synthesis<'_, 'b, 'm> {
     type Way<'f>
         = PathForm<'f, 'b, 'm>
     where

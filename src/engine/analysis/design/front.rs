@@ -9,7 +9,7 @@ use crate::solve::Watch;
 pub type Costs<'a> = dyn Fn(&FoundEnd) -> Option<[f64; 2]> + Sync + 'a;
 
 /// A design with its costs.
-type Known = (FoundEnd, [f64; 2]);
+type CostedDesign = (FoundEnd, [f64; 2]);
 
 impl Task<'_> {
     /// So many designs along the front of two costs, by bounded objectives (Haimes, Lasdon and Wismer 1971): each cost alone is
@@ -28,7 +28,8 @@ impl Task<'_> {
         const BETTER: f64 = 1e-6;
         const ANY: f64 = f64::INFINITY;
         let both = |end: &FoundEnd| Some((end.clone(), costs(end)?));
-        let mut known: Vec<Known> = self.open_ends(all).into_iter().filter_map(both).collect();
+        let mut known: Vec<CostedDesign> =
+            self.open_ends(all).into_iter().filter_map(both).collect();
         let count = known.len().min(most);
         let ends = [0, 1].map(|one| self.least(&mut known, (one, ANY), most, costs, watch));
         let [Some(first), Some((_, [_, lowest]))] = &ends else {
@@ -41,7 +42,7 @@ impl Task<'_> {
             lowest + part * (highest - lowest) + SAME * lowest.abs()
         });
         let bounded = bounds.map(|bound| self.least(&mut known, (0, bound), BEGUN, costs, watch));
-        let mut front: Vec<Known> = bounded.flatten().chain([first.clone()]).collect();
+        let mut front: Vec<CostedDesign> = bounded.flatten().chain([first.clone()]).collect();
         sort_by(&mut front, |(_, a), (_, b)| {
             a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
         });
@@ -60,12 +61,12 @@ impl Task<'_> {
     /// The cheapest design in one of two costs with the other no greater than a bound, which is known then.
     fn least(
         &self,
-        known: &mut Vec<Known>,
+        known: &mut Vec<CostedDesign>,
         (one, bound): (usize, f64),
         begun: usize,
         costs: &Costs,
         watch: &Watch,
-    ) -> Option<Known> {
+    ) -> Option<CostedDesign> {
         /// Sizes of the simplices, in units of the numbers.
         const SIZES: [f64; 2] = [5e-2, 1e-4];
         /// Cost of a design beyond the bound, with how far it is beyond.

@@ -142,8 +142,12 @@ pub struct Goal {
 
 /// A design.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Design {
+#[cfg_attr(
+    feature = "schema",
+    derive(schemars::JsonSchema),
+    schemars(rename = "Design")
+)]
+pub struct FoundDesign {
     /// The values of the numbers, in the order of [`DesignReport::varied`].
     pub values: Vec<f64>,
     /// Σ (w·deviation)² over all targets.
@@ -220,7 +224,7 @@ pub struct DesignReport {
     /// The joint that drives, by which branches are judged.
     pub driver: Option<String>,
     /// Different designs: first those without defects, each group by its sum of squares.
-    pub designs: Vec<Design>,
+    pub designs: Vec<FoundDesign>,
     /// The figure that is improved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,

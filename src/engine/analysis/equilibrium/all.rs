@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::{EquilibriumReport, Start};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::{C, Number};
-use crate::solve::monodromy::{Family, Monodromy, followed, place, random};
+use crate::solve::monodromy::{Monodromy, ParametricSystem, followed, place, random};
 use crate::solve::{Tracker, Watch, each};
 use crate::system::{NotAlgebraic, RestEquations, RestWay};
 
@@ -69,7 +69,7 @@ impl Resting<'_> {
     }
 }
 
-impl<'a> Family for Resting<'a> {
+impl<'a> ParametricSystem for Resting<'a> {
     type Way<'f>
         = RestWay<'f>
     where

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{NoRest, RestPosition, descent};
 use crate::linear::add;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::system::{Dynamics, Named, PlatformRecord};
+use crate::system::{ByName, Dynamics, PlatformRecord};
 
 /// Stability of a rest position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,7 +38,7 @@ pub struct NaturalMode {
     /// The rate σ of a departure eᵟᵗ, in 1/s.
     pub departure: Option<f64>,
     /// Amplitudes of the joints, in rad and m, for the largest of all dimensionless amplitudes one.
-    pub shape: Named<f64>,
+    pub shape: ByName<f64>,
     /// Assembled configurations from one end of it to the other, the rest position in the middle, where the largest of all
     /// dimensionless amplitudes is 0.2.
     #[serde(skip)]
@@ -197,7 +197,7 @@ fn spread(dynamics: &Dynamics, amplitudes: &[f64]) -> (Vec<f64>, f64) {
 }
 
 /// Amplitudes of the joints, that of the largest of all unknowns one.
-fn shape(mechanism: &Mechanism, all: &[f64], largest: f64) -> Named<f64> {
+fn shape(mechanism: &Mechanism, all: &[f64], largest: f64) -> ByName<f64> {
     let scales = &mechanism.dimensions().joint_scales;
     let joints = mechanism.joints().iter().zip(scales).zip(all);
     joints

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::loops::LoopCount;
 use super::redundancy::Redundancy;
 use crate::mechanism::Variable;
-use crate::system::{GivenPose, Named, TwistSpace};
+use crate::system::{ByName, GivenPose, TwistSpace};
 
 /// Mobility of an assembled mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,7 +45,7 @@ pub struct MobilityReport {
     /// Joints that move.
     pub moving_joints: Vec<String>,
     /// Joint values of the closed configuration, rad or m.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
     /// Kind of point of the configuration space.
     pub character: Character,
     /// The branches through a singular configuration, the first of very many.
@@ -168,7 +168,7 @@ pub struct Elsewhere {
     /// Its freedoms.
     pub mobility: usize,
     /// Joint values there, rad or m.
-    pub joints: Named<f64>,
+    pub joints: ByName<f64>,
 }
 
 /// True for a count that is left out of a report.

@@ -40,14 +40,14 @@ pub(crate) struct StretchPiece {
     terms: Vec<[f64; TERMS]>,
     /// The most by which each may be off.
     noise: Vec<f64>,
-    fits: Vec<Fitted>,
+    fits: Vec<FitQuality>,
     /// The terms of each work.
     works: Vec<[f64; WORK_TERMS]>,
 }
 
 /// Deviation of a polynomial from the quantity on a piece.
 #[derive(Clone, Copy, PartialEq)]
-enum Fitted {
+enum FitQuality {
     /// As near as values are known.
     Near,
     /// Near, and halving the piece does not bring it nearer: values are rounded, or there is a kink.
@@ -244,19 +244,19 @@ impl<'m> Course<'m> {
         self.is_rough(of, piece) && end - begin > 1e-9
     }
 
-    fn has(&self, of: &Sought, piece: usize, fitted: Fitted) -> bool {
+    fn has(&self, of: &Sought, piece: usize, fitted: FitQuality) -> bool {
         let fits = &self.pieces[piece].fits;
         of.program.names().any(|(name, _)| fits[*name] == fitted)
     }
 
     /// True if a name in a quantity is no polynomial on a piece.
     pub fn is_rough(&self, of: &Sought, piece: usize) -> bool {
-        self.has(of, piece, Fitted::Rough)
+        self.has(of, piece, FitQuality::Rough)
     }
 
     /// True if a name in a quantity is known beside a crossing from farther away: what is read there says less.
     pub fn is_continued(&self, of: &Sought, piece: usize) -> bool {
-        self.has(of, piece, Fitted::Continued)
+        self.has(of, piece, FitQuality::Continued)
     }
 
     /// The part of a stretch on either side of a place of a piece where the best value near it may be.
@@ -268,7 +268,7 @@ impl<'m> Course<'m> {
         }
         // the polynomial of a piece with a kink may not reach up to it, and then a neighbour has the best value
         let kinked = (piece.saturating_sub(1)..(piece + 2).min(self.pieces.len()))
-            .filter(|k| self.has(of, *k, Fitted::Rounded))
+            .filter(|k| self.has(of, *k, FitQuality::Rounded))
             .map(|k| self.width(k));
         Some(kinked.fold(BESIDE * self.width(piece), f64::max))
     }

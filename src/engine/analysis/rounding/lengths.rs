@@ -9,10 +9,10 @@ use crate::linear::Decomposition;
 use crate::number::sorting::sort_by;
 
 /// A length with the most by which it is off.
-type Rounded = (f64, f64);
+type UncertainLength = (f64, f64);
 
 /// The places of lengths that are equal within their rounding, and their means, in the order of size.
-fn alike(lengths: &[Rounded]) -> Vec<(Vec<usize>, f64)> {
+fn alike(lengths: &[UncertainLength]) -> Vec<(Vec<usize>, f64)> {
     let mut order: Vec<usize> = (0..lengths.len()).collect();
     sort_by(&mut order, |a, b| lengths[*a].0.total_cmp(&lengths[*b].0));
     let off = |i: usize| EXPLAINED * lengths[i].1;
@@ -82,7 +82,7 @@ impl Numbers<'_> {
         let lengths = places
             .iter()
             .map(|&i| (value(i).abs(), self.off[i].unwrap_or(0.0)));
-        let groups = alike(&lengths.collect::<Vec<Rounded>>()).into_iter();
+        let groups = alike(&lengths.collect::<Vec<UncertainLength>>()).into_iter();
         let equal = groups.flat_map(|(group, mean)| {
             let places = group.into_iter().map(|k| places[k]);
             places.map(move |i| (i, mean)).collect::<Vec<_>>()
@@ -149,7 +149,7 @@ impl Numbers<'_> {
         };
         let pairs = (0..joints.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
         let mut links: Vec<(usize, usize)> = Vec::new();
-        let mut lengths: Vec<Rounded> = Vec::new();
+        let mut lengths: Vec<UncertainLength> = Vec::new();
         for (a, b) in pairs.filter(|(a, b)| share(*a, *b)) {
             let (Some(from), Some(to)) = (&joints[a], &joints[b]) else {
                 continue;

@@ -3,7 +3,7 @@
 use crate::linear::{Svd, add, dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Equations;
-use crate::system::{Bundle, Bundled, System, Work};
+use crate::system::{Bundle, Bundled, System, SystemWork};
 
 /// The first direction that rounding may have closed, and the number of equations that resist the others.
 pub(super) struct RoundedDirections<'a> {
@@ -37,7 +37,7 @@ const SLACK: f64 = 10.0;
 /// that is left.
 fn nearest(
     system: &System<f64>,
-    work: &mut Work<f64>,
+    work: &mut SystemWork<f64>,
     mut at: Configuration<f64>,
     counts: impl Fn(&[f64]) -> usize,
 ) -> (Configuration<f64>, f64, Svd) {

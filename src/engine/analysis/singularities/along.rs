@@ -11,10 +11,10 @@ use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::sorting::sort_by;
-use crate::solve::{Continuation, Place, SolutionCurve, Stage, Watch};
+use crate::solve::{Continuation, CurvePoint, SolutionCurve, Stage, Watch};
 use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, SweepEnd, Walk};
 
-type AlongPlace = Place<Configuration<f64>>;
+type AlongPlace = CurvePoint<Configuration<f64>>;
 
 /// Singularities met by a motion along a segment of inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

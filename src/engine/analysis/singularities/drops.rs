@@ -3,10 +3,10 @@
 use crate::linear::{Decomposition, RANK_TOLERANCE};
 use crate::mechanism::Configuration;
 use crate::number::tolerance::SOLVED;
-use crate::solve::{Continuation, Place, edge};
+use crate::solve::{Continuation, CurvePoint, edge};
 use crate::system::{Curve, Locked};
 
-type DropPlace = Place<Configuration<f64>>;
+type DropPlace = CurvePoint<Configuration<f64>>;
 
 struct RankSample {
     place: DropPlace,

@@ -1,10 +1,10 @@
 //! The extents of a locus in the coordinates of the box.
 
-use crate::solve::Place;
+use crate::solve::CurvePoint;
 use crate::system::{ConfigurationCurve, Driven, LocusCurve, Region, Singular, Traced};
 
 /// A place of a singularity locus.
-pub(super) type SingularPlace = Place<Singular>;
+pub(super) type SingularPlace = CurvePoint<Singular>;
 
 /// Least and greatest value of each coordinate on a curve, rad or m: at ends, crossings and turns.
 pub(super) fn extents(

@@ -6,7 +6,7 @@ use super::classify::Singularity;
 use crate::linear::norm;
 use crate::number::tolerance::SAME;
 use crate::number::{real, sorting::sort_by};
-use crate::solve::Place;
+use crate::solve::CurvePoint;
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
 /// Image of a curve of configurations in the box.
@@ -33,7 +33,7 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
     real::hypot(a[0] - b[0], a[1] - b[1])
 }
 
-fn scaled(region: &Region, scales: [f64; 2], place: &Place<Singular>) -> [f64; 2] {
+fn scaled(region: &Region, scales: [f64; 2], place: &CurvePoint<Singular>) -> [f64; 2] {
     [0, 1].map(|k| region.side(&place.at.at, &region.sides[k]) / scales[k])
 }
 
@@ -102,8 +102,9 @@ impl<'t> Projection<'t> {
                 continue;
             }
             let places = &self.traced.places[i..i + 2];
-            let mut ahead =
-                |_: &mut LocusCurve, p: &Place<Singular>| along(scaled(region, self.scales, p));
+            let mut ahead = |_: &mut LocusCurve, p: &CurvePoint<Singular>| {
+                along(scaled(region, self.scales, p))
+            };
             let foot = (region.method).root(curve, &places[0], &places[1], &mut ahead);
             if apart(scaled(region, self.scales, &foot), point) < SAME {
                 return true;

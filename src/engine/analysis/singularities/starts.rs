@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::SingularitiesSettings;
 use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, turn_near};
-use crate::solve::{Newton, Place, Progress, SolutionCurve, Stage};
+use crate::solve::{CurvePoint, Newton, Progress, SolutionCurve, Stage};
 use crate::system::{
     Coordinate, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, met_at, neared,
     random_configuration, with_coordinates,
@@ -120,7 +120,7 @@ impl LocusSearch<'_> {
         &self,
         curve: &mut LocusCurve,
         at: Configuration<f64>,
-    ) -> Option<(Place<Singular>, bool)> {
+    ) -> Option<(CurvePoint<Singular>, bool)> {
         /// The last step, and about as far an isolated point.
         const NEAR: f64 = 1e-3;
         let method = self.region.method;
@@ -156,7 +156,7 @@ impl LocusSearch<'_> {
     fn locus_through(
         &self,
         found: &mut FoundCurves,
-        (place, isolated): (Place<Singular>, bool),
+        (place, isolated): (CurvePoint<Singular>, bool),
     ) -> Option<usize> {
         let method = self.region.method;
         let curve = &mut found.curve;

@@ -2,7 +2,7 @@
 
 use super::VariablePlan;
 use super::report::{ClosedProgram, Radicand};
-use crate::algebra::{Place, Recorded};
+use crate::algebra::{OperationIndex, Recorded};
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::number::tolerance::ROUNDING;
@@ -11,9 +11,9 @@ use crate::system::{Branching, ClosedSolution};
 /// Writes down what must hold where formulas are evaluated.
 #[derive(Default)]
 struct Recorder {
-    signs: Vec<Place>,
+    signs: Vec<OperationIndex>,
     radicands: Vec<Radicand>,
-    divisors: Vec<(Place, f64)>,
+    divisors: Vec<(OperationIndex, f64)>,
 }
 
 impl Recorder {

@@ -4,7 +4,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 use super::{StateVariable, VariablePlan};
-use crate::algebra::{Operation, Place, SiUnit, evaluate};
+use crate::algebra::{Operation, OperationIndex, SiUnit, evaluate};
 use crate::linear::{DENSE_LIMIT, norm, singular_values};
 use crate::number::tolerance::DIFFERENCE;
 
@@ -26,7 +26,7 @@ impl VariablePlan<'_> {
     pub(super) fn curvature(
         &self,
         operations: &[Operation],
-        jacobian: &[Place],
+        jacobian: &[OperationIndex],
         variables: &[StateVariable],
         start: &[f64],
     ) -> Curvature {
@@ -113,7 +113,7 @@ impl VariablePlan<'_> {
 }
 
 /// For each of the first inputs of the operations, true if some place depends on it.
-fn used(operations: &[Operation], places: &[Place], inputs: usize) -> Vec<bool> {
+fn used(operations: &[Operation], places: &[OperationIndex], inputs: usize) -> Vec<bool> {
     let mut needed = vec![false; operations.len()];
     let mut used = vec![false; inputs];
     for &place in places {

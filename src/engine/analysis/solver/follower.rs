@@ -60,7 +60,7 @@ const INVERSE: usize = 5;
 
 /// The latest solutions of [`BATCH`] motions.
 #[derive(Clone, Debug)]
-pub struct Motions {
+pub struct FollowerState {
     registers: Registers,
     past: Past,
     certain: Certain,
@@ -120,11 +120,11 @@ impl<'a> Follower<'a> {
     }
 
     /// [`BATCH`] motions that begin at a configuration.
-    pub fn motions(&self, at: &Configuration<f64>) -> Motions {
+    pub fn motions(&self, at: &Configuration<f64>) -> FollowerState {
         let registers = self.program.registers();
         let numbers = 0..self.curvature.weights.len();
         let jacobian = self.program.results(JACOBIAN).len();
-        let mut motions = Motions {
+        let mut motions = FollowerState {
             past: Past::none(self.moved.iter().map(|(register, _)| *register), &registers),
             certain: Certain::none(numbers.zip(&self.curvature.weights), jacobian),
             registers,
@@ -135,8 +135,8 @@ impl<'a> Follower<'a> {
     }
 
     /// Takes the solutions of motions for ones of their branches.
-    fn keep_certain(&self, motions: &mut Motions, which: &Mask) {
-        let Motions {
+    fn keep_certain(&self, motions: &mut FollowerState, which: &Mask) {
+        let FollowerState {
             registers, certain, ..
         } = motions;
         (LaneProgram::KNOWN..=ROWS).for_each(|section| self.program.run(section, registers));
@@ -156,14 +156,14 @@ impl<'a> Follower<'a> {
     }
 
     /// Puts a motion at a configuration, and forgets where it came from.
-    pub fn put(&self, motions: &mut Motions, motion: usize, at: &Configuration<f64>) {
+    pub fn put(&self, motions: &mut FollowerState, motion: usize, at: &Configuration<f64>) {
         self.set(motions, motion, at);
         let mut which = [0; BATCH];
         which[motion] = u64::MAX;
         self.keep_certain(motions, &which);
     }
 
-    fn set(&self, motions: &mut Motions, motion: usize, at: &Configuration<f64>) {
+    fn set(&self, motions: &mut FollowerState, motion: usize, at: &Configuration<f64>) {
         let (inputs, state) = self.plan.values(at);
         let changing = self.changing.iter().map(|&i| inputs[i]);
         for (register, value) in changing.chain(state).enumerate() {
@@ -173,14 +173,18 @@ impl<'a> Follower<'a> {
     }
 
     /// The values of a coordinate that changes, one for each motion, to be set before [`solve`](Self::solve).
-    pub fn values<'m>(&self, motions: &'m mut Motions, coordinate: usize) -> &'m mut [f64; BATCH] {
+    pub fn values<'m>(
+        &self,
+        motions: &'m mut FollowerState,
+        coordinate: usize,
+    ) -> &'m mut [f64; BATCH] {
         motions.registers.rows_mut(coordinate)
     }
 
     /// Leads the motions that go to the values set, and says which arrive, certainly on their branch; the others stay at
     /// their latest solution.
-    pub fn solve(&self, motions: &mut Motions, going: &[bool; BATCH]) -> [bool; BATCH] {
-        let Motions {
+    pub fn solve(&self, motions: &mut FollowerState, going: &[bool; BATCH]) -> [bool; BATCH] {
+        let FollowerState {
             registers,
             past,
             certain,
@@ -224,7 +228,10 @@ impl<'a> Follower<'a> {
 
     /// Values reached by the last [`solve`](Self::solve): all motions' values of each coordinate, in the order of
     /// [`Coordinate::all`], in rad and m.
-    pub fn columns<'m>(&self, motions: &'m Motions) -> impl Iterator<Item = &'m [f64; BATCH]> {
+    pub fn columns<'m>(
+        &self,
+        motions: &'m FollowerState,
+    ) -> impl Iterator<Item = &'m [f64; BATCH]> {
         let columns = &self.program.results(REACHED)[1 + self.placed.len()..];
         columns
             .iter()
@@ -234,7 +241,7 @@ impl<'a> Follower<'a> {
     /// The latest solution of a motion, found for these values of the coordinates that change.
     pub fn configuration(
         &self,
-        motions: &Motions,
+        motions: &FollowerState,
         motion: usize,
         values: &[f64],
     ) -> Configuration<f64> {

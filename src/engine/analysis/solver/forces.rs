@@ -1,7 +1,7 @@
 //! Inverse dynamics: the forces that drive the inputs, from the one balance that all analyses of forces use.
 
 use super::{NoSolver, StateVariable, VariablePlan};
-use crate::algebra::{Function, Operation, Place, Recorded, needed};
+use crate::algebra::{Function, Operation, OperationIndex, Recorded, needed};
 use crate::linear::Factorable;
 use crate::mechanism::Configuration;
 use crate::system::{Balance, Coordinate, Instant, Load, Motion, Question};
@@ -117,7 +117,7 @@ impl VariablePlan<'_> {
 impl ForceProgram {
     /// A function that follows from no operation of the generated languages, if the forces call one.
     pub(super) fn missing(&self, operations: &[Operation]) -> Option<Function> {
-        let mut places: Vec<Place> = self.forces.iter().map(|of| of.place).collect();
+        let mut places: Vec<OperationIndex> = self.forces.iter().map(|of| of.place).collect();
         let needed = needed(operations, &mut places);
         needed.into_iter().find_map(|of| match of {
             Operation::Call(function @ (Function::Exp | Function::Ln), _) => Some(function),

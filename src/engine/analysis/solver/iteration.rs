@@ -2,8 +2,8 @@
 
 use super::placing::placings;
 use super::{NoSolver, StateVariable, VariablePlan};
+use crate::algebra::{OperationIndex, Recorded};
 use crate::algebra::{Pivot, eliminate};
-use crate::algebra::{Place, Recorded};
 use crate::mechanism::{Configuration, Dimensions};
 use crate::solve::Equations;
 use crate::system::{Held, System};
@@ -72,11 +72,11 @@ pub(super) fn negated(of: Vec<Recorded>) -> Vec<Recorded> {
     of.into_iter().map(|x| -x).collect()
 }
 
-pub(super) fn places(of: &[Recorded]) -> Vec<Place> {
+pub(super) fn places(of: &[Recorded]) -> Vec<OperationIndex> {
     of.iter().map(|number| number.place()).collect()
 }
 
-pub(super) fn numbered(of: &[(usize, Recorded)]) -> Vec<(usize, Place)> {
+pub(super) fn numbered(of: &[(usize, Recorded)]) -> Vec<(usize, OperationIndex)> {
     of.iter().map(|(i, number)| (*i, number.place())).collect()
 }
 

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::algebra::{Operation, Pivot, Place, SiUnit};
+use crate::algebra::{Operation, OperationIndex, Pivot, SiUnit};
 use crate::system::is_origin;
 
 /// A component of the input or the state array.
@@ -25,9 +25,9 @@ pub struct FrameProgram {
     /// Its name.
     pub name: String,
     /// Places of the axes x, y, z and the origin in ground, three components each.
-    pub pose: Vec<Place>,
+    pub pose: Vec<OperationIndex>,
     /// For each input the places of (v, ω) for a unit rate of it; v is the velocity of the origin.
-    pub twists: Vec<Vec<Place>>,
+    pub twists: Vec<Vec<OperationIndex>>,
 }
 
 /// The force or moment at an input.
@@ -37,7 +37,7 @@ pub struct ForceComponent {
     /// N or N·m.
     pub unit: SiUnit,
     /// Its place.
-    pub place: Place,
+    pub place: OperationIndex,
 }
 
 /// Inverse dynamics: the forces that drive the inputs. Their further inputs are numbered after those of a step: rates of the
@@ -48,7 +48,7 @@ pub struct ForceProgram {
     /// For each input the force or moment along it.
     pub forces: Vec<ForceComponent>,
     /// Places of numbers, each with true if it must be negative: elsewhere the configuration is singular.
-    pub decisions: Vec<(Place, bool)>,
+    pub decisions: Vec<(OperationIndex, bool)>,
 }
 
 /// A divisor, with its reciprocal and its natural size.
@@ -56,9 +56,9 @@ pub struct ForceProgram {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Divisor {
     /// Its place.
-    pub place: Place,
+    pub place: OperationIndex,
     /// The place of its reciprocal.
-    pub inverse: Place,
+    pub inverse: OperationIndex,
     /// Its natural size: the divisor is small if it is small relative to this.
     pub scale: f64,
 }
@@ -80,9 +80,9 @@ impl Divisor {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Radicand {
     /// Its place.
-    pub place: Place,
+    pub place: OperationIndex,
     /// The place of the number relative to which it is small.
-    pub size: Place,
+    pub size: OperationIndex,
 }
 
 /// The state in closed form.
@@ -90,13 +90,13 @@ pub struct Radicand {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClosedProgram {
     /// The places of the state.
-    pub state: Vec<Place>,
+    pub state: Vec<OperationIndex>,
     /// The places of the signs by which the nearest solution is chosen, in their order.
-    pub signs: Vec<Place>,
+    pub signs: Vec<OperationIndex>,
     /// Numbers that must not be negative.
     pub radicands: Vec<Radicand>,
     /// Divisors, each with the size below which it is zero.
-    pub divisors: Vec<(Place, f64)>,
+    pub divisors: Vec<(OperationIndex, f64)>,
 }
 
 /// A solver as a straight-line program. Its inputs are numbered: the held coordinates, then the state, then a step of
@@ -118,14 +118,14 @@ pub struct Solver {
     /// All operations; operands stand before what uses them.
     pub operations: Vec<Operation>,
     /// Places of the closure rows r that do not vanish identically, dimensionless.
-    pub residual: Vec<Place>,
+    pub residual: Vec<OperationIndex>,
     /// Places of the entries of their Jacobian J, row by row.
-    pub jacobian: Vec<Vec<Place>>,
+    pub jacobian: Vec<Vec<OperationIndex>>,
     /// Places of the rows that Newton's method brings to zero: the closure rows, or distances between the points where a
     /// platform stands on three balls, which hold if those do; with the factors by which no closure row is larger.
-    pub iterated: Vec<(Place, f64)>,
+    pub iterated: Vec<(OperationIndex, f64)>,
     /// Places of the entries of their Jacobian by the unknowns that are iterated, row by row.
-    pub slopes: Vec<Vec<Place>>,
+    pub slopes: Vec<Vec<OperationIndex>>,
     /// The rate at which that changes for a unit change of inputs and state, weighted so that they are dimensionless.
     pub curvature: f64,
     /// The weights of the inputs, then of the state; 0 where it does not depend on them.
@@ -133,16 +133,16 @@ pub struct Solver {
     /// Pivots of the step.
     pub pivots: Vec<Divisor>,
     /// The unknowns that are iterated, with the places of their components of the step −J⁻¹ r, dimensionless.
-    pub step: Vec<(usize, Place)>,
+    pub step: Vec<(usize, OperationIndex)>,
     /// Places of the state moved by a step.
-    pub moved: Vec<Place>,
+    pub moved: Vec<OperationIndex>,
     /// Components of the state that follow from the others, with their places.
-    pub placed: Vec<(usize, Place)>,
+    pub placed: Vec<(usize, OperationIndex)>,
     /// The state in closed form, if it has one: for where the iteration fails, and without a start.
     #[serde(default)]
     pub closed: Option<ClosedProgram>,
     /// For each input the places of the rates of the state for a unit rate of it.
-    pub rates: Vec<Vec<Place>>,
+    pub rates: Vec<Vec<OperationIndex>>,
     /// Frames whose poses and twists are wanted.
     pub frames: Vec<FrameProgram>,
     /// The forces that drive the inputs, if they are wanted.

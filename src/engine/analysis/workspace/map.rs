@@ -4,7 +4,7 @@ mod cells;
 mod report;
 mod table;
 
-pub use cells::{AxisReport, Cell, Cells};
+pub use cells::{AxisReport, Cells, MapNode};
 pub use report::{
     AspectReport, BoundaryPoint, Conditioned, HeldReport, HomeReport, ModeReport, WorkspaceReport,
 };

@@ -27,7 +27,7 @@ pub struct DrawnDesign {
 
 impl Design {
     /// The contents of a picture of a design; `None` for one that does not assemble.
-    pub fn drawn(&self, design: &design::Design, watch: &Watch) -> Option<DrawnDesign> {
+    pub fn drawn(&self, design: &design::FoundDesign, watch: &Watch) -> Option<DrawnDesign> {
         let description = Description::read(&design.file).ok()?;
         let mechanism = Mechanism::new(&description).ok()?;
         let question = Question::new(mechanism.clone());

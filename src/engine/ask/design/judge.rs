@@ -41,7 +41,7 @@ struct FigureBound {
 
 /// A judgement of a design.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Verdict {
+pub(super) struct Judgement {
     pub defects: Vec<Defect>,
     /// Motion of the driving joint.
     pub moves: Moves,
@@ -211,7 +211,7 @@ impl<'a> Judge<'a> {
             return self.costs(found);
         };
         let mechanism = self.designed(found)?;
-        let mut verdict = Verdict::default();
+        let mut verdict = Judgement::default();
         let places = self.passed(held, found)?;
         let places: Vec<_> = places.iter().map(|at| self.about(&mechanism, at)).collect();
         self.outside(&mechanism, &places, &mut verdict.defects);
@@ -222,7 +222,7 @@ impl<'a> Judge<'a> {
         self.costs_of(&verdict)
     }
 
-    fn costs_of(&self, verdict: &Verdict) -> Option<Vec<f64>> {
+    fn costs_of(&self, verdict: &Judgement) -> Option<Vec<f64>> {
         const MISSED: f64 = 1e30;
         let missed = verdict.defects.iter().map(|defect| match defect {
             Defect::Condition {
@@ -248,7 +248,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Bounds and goal by what the figures see.
-    fn weighed(&self, seen: &[Vec<Observed>], verdict: &mut Verdict) {
+    fn weighed(&self, seen: &[Vec<Observed>], verdict: &mut Judgement) {
         self.bounded(seen, &mut verdict.defects);
         if verdict.defects.is_empty() {
             let goals = self.goals.iter().zip(seen.iter().skip(self.bounds.len()));
@@ -257,10 +257,10 @@ impl<'a> Judge<'a> {
     }
 
     /// Judges a design.
-    pub fn verdict(&self, found: &FoundEnd) -> Verdict {
-        let not_judged = || Verdict {
+    pub fn verdict(&self, found: &FoundEnd) -> Judgement {
+        let not_judged = || Judgement {
             defects: vec![Defect::NotJudged],
-            ..Verdict::default()
+            ..Judgement::default()
         };
         let Some(mechanism) = self.designed(found) else {
             return not_judged();
@@ -268,7 +268,7 @@ impl<'a> Judge<'a> {
         let positions: Vec<_> = (found.at.configurations.iter())
             .map(|at| self.about(&mechanism, at))
             .collect();
-        let mut verdict = Verdict::default();
+        let mut verdict = Judgement::default();
         let defects = &mut verdict.defects;
         let seen = if self.one_freedom {
             let (held, driver) = (&self.read.held, self.read.driver);

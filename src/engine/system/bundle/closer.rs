@@ -11,7 +11,7 @@ use crate::linear::norm;
 use crate::mechanism::Configuration;
 use crate::number::tolerance::SOLVED;
 use crate::solve::Equations;
-use crate::system::{Held, System, Work};
+use crate::system::{Held, System, SystemWork};
 
 impl<'m> Bundle<'m> {
     /// The configurations that close, and meet what they must, near those of a point with the shared numbers as they are;
@@ -126,7 +126,7 @@ pub struct Closer<'b, 'm> {
 /// The equations for the numbers, where they are not written down.
 struct Built {
     system: System<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
     lanes: Option<Lanes>,
 }
 

@@ -1,14 +1,14 @@
 //! Closures and targets of one configuration with their derivatives, written down once for all values of the shared numbers.
 
 use super::{Bundle, Target};
-use crate::algebra::{Operation, Place, Recorded, needed, record, run};
+use crate::algebra::{Operation, OperationIndex, Recorded, needed, record, run};
 use crate::geometry::Quaternion;
 use crate::mechanism::Configuration;
 use crate::number::{Gradient, Number};
 use crate::solve::Equations;
 use crate::system::System;
 
-type G = Gradient<Recorded>;
+type RecordedGradient = Gradient<Recorded>;
 
 /// A straight-line program for the rows of one configuration. Its inputs are the shared numbers in their units, then the
 /// [coordinates](coordinates) of the configuration.
@@ -16,7 +16,7 @@ type G = Gradient<Recorded>;
 pub(super) struct Program {
     operations: Vec<Operation>,
     /// For each row its value, then its derivatives by the unknowns and by the shared numbers.
-    places: Vec<Place>,
+    places: Vec<OperationIndex>,
     directions: usize,
 }
 
@@ -69,7 +69,7 @@ impl Program {
     pub(super) fn part(&self, rows: impl Iterator<Item = usize>, directions: usize) -> Self {
         let width = 1 + self.directions;
         let kept = rows.flat_map(|row| &self.places[row * width..][..=directions]);
-        let mut places: Vec<Place> = kept.copied().collect();
+        let mut places: Vec<OperationIndex> = kept.copied().collect();
         Program {
             operations: needed(&self.operations, &mut places),
             places,
@@ -105,7 +105,7 @@ fn written(
     bundle: &Bundle,
     targets: &[&Target],
     inputs: &[Recorded],
-) -> Option<(usize, Vec<Place>)> {
+) -> Option<(usize, Vec<OperationIndex>)> {
     let home = bundle.mechanism.home();
     let count = bundle.numbers.len();
     let mut rows: Vec<Vec<Recorded>> = Vec::new();
@@ -113,23 +113,24 @@ fn written(
     let directions = loop {
         let lane = |i: usize, x: Recorded, size: f64| match i.checked_sub(from) {
             Some(lane) if lane < Gradient::LANES => {
-                G::variable(Recorded::zero(), lane).scale(size) + G::constant(x)
+                RecordedGradient::variable(Recorded::zero(), lane).scale(size)
+                    + RecordedGradient::constant(x)
             }
-            _ => G::constant(x),
+            _ => RecordedGradient::constant(x),
         };
         let sizes = inputs.iter().zip(&bundle.sizes).enumerate();
-        let numbers: Vec<G> = sizes
+        let numbers: Vec<RecordedGradient> = sizes
             .map(|(i, (x, size))| lane(i, x.scale(*size), *size))
             .collect();
         let (parameters, dimensions) = bundle.dimensions(&numbers)?;
-        let held = bundle.held.map(G::from_f64);
+        let held = bundle.held.map(RecordedGradient::from_f64);
         let system = System::keeping(&dimensions, &held, &bundle.kept, &bundle.frames);
         let mut work = system.work();
         let unknowns = system.unknowns().len();
-        let step: Vec<G> = (0..unknowns)
+        let step: Vec<RecordedGradient> = (0..unknowns)
             .map(|i| lane(count + i, Recorded::zero(), 1.0))
             .collect();
-        let mut at = configuration(&home, &inputs[count..]).map(G::constant);
+        let mut at = configuration(&home, &inputs[count..]).map(RecordedGradient::constant);
         system.displace(&mut at, &step);
         system.residual(&at, &mut work);
         let mut all = system.residual_of(&work).to_vec();

@@ -9,7 +9,7 @@ use crate::algebra::SiUnit;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Measured, Mechanism, Order, Quantity};
 use crate::number::{Gradient, Number};
-use crate::system::{System, Work};
+use crate::system::{System, SystemWork};
 
 /// A quantity of one configuration that should have a value.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ impl Target {
     pub(super) fn left<T: Factorable>(
         &self,
         mechanism: &Mechanism,
-        evaluated: (&System<T>, &Work<T>),
+        evaluated: (&System<T>, &SystemWork<T>),
         parameters: &[T],
         at: &Configuration<T>,
     ) -> Option<T> {
@@ -69,7 +69,7 @@ impl Target {
     pub(super) fn quantity<T: Factorable>(
         &self,
         mechanism: &Mechanism,
-        (system, work): (&System<T>, &Work<T>),
+        (system, work): (&System<T>, &SystemWork<T>),
         parameters: &[T],
         at: &Configuration<T>,
     ) -> Option<T> {

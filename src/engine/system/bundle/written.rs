@@ -13,15 +13,15 @@ use crate::system::{HeldPlatform, System};
 
 /// The programs of all configurations.
 #[derive(Clone, Debug)]
-pub(super) struct Written {
-    places: Vec<Place>,
+pub(super) struct BundlePrograms {
+    places: Vec<ConfigurationPrograms>,
     /// The equations for the numbers of the file, by which configurations are moved.
     pub shape: System<f64>,
 }
 
 /// The programs of one configuration.
 #[derive(Clone, Debug)]
-struct Place {
+struct ConfigurationPrograms {
     /// Closures and targets with their derivatives by the unknowns and by the shared numbers.
     all: Program,
     /// Closures and what must be met with their derivatives by the unknowns.
@@ -54,14 +54,14 @@ impl Bundle<'_> {
                 let all = Program::new(&self, &self.targets_of(k))?;
                 let exact = self.exact(k);
                 let met = (0..exact.len()).filter(|i| exact[*i]).map(|i| rows + i);
-                Some(Place {
+                Some(ConfigurationPrograms {
                     closing: all.part((0..rows).chain(met), unknowns),
                     values: all.part(0..rows + exact.len(), 0),
                     all,
                 })
             };
             let places = (0..configurations).map(place).collect::<Option<_>>()?;
-            Some(Arc::new(Written { places, shape }))
+            Some(Arc::new(BundlePrograms { places, shape }))
         });
         self
     }
@@ -87,7 +87,7 @@ impl Bundle<'_> {
     /// by the shared numbers unless it is only closed.
     pub(super) fn linear_by(
         &self,
-        written: &Written,
+        written: &BundlePrograms,
         numbers: &[f64],
         (k, at): (usize, &Configuration<f64>),
         closing: bool,
@@ -135,7 +135,7 @@ impl Bundle<'_> {
     /// The sums of squares of one configuration.
     pub(super) fn misfit_of(
         &self,
-        written: &Written,
+        written: &BundlePrograms,
         numbers: &[f64],
         (k, at): (usize, &Configuration<f64>),
         storage: &mut Storage,
@@ -159,7 +159,7 @@ impl Bundle<'_> {
     }
 
     /// The sums of squares at a point.
-    pub(super) fn misfit_by(&self, written: &Written, at: &Bundled) -> Misfit {
+    pub(super) fn misfit_by(&self, written: &BundlePrograms, at: &Bundled) -> Misfit {
         let mut misfit = Misfit {
             equations: 0.0,
             squares: self

@@ -3,8 +3,8 @@
 use super::Curve;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::{C, Number, complex::norm, real};
-use crate::solve::{Equations, Place, SolutionCurve};
-use crate::system::equations::{System, Work};
+use crate::solve::{CurvePoint, Equations, SolutionCurve};
+use crate::system::equations::{System, SystemWork};
 use crate::system::{Held, Unknown};
 
 /// The complex assembled configurations of a mechanism with one freedom at which one joint is real.
@@ -16,7 +16,7 @@ use crate::system::{Held, Unknown};
 #[derive(Clone, Debug)]
 pub struct ComplexCurve {
     system: System<C>,
-    work: Work<C>,
+    work: SystemWork<C>,
     joint: usize,
     column: usize,
     cycles: Vec<Option<f64>>,
@@ -49,7 +49,11 @@ impl ComplexCurve {
     }
 
     /// A place followed so that the real joint grows, or falls.
-    pub fn going(&self, place: Place<Configuration<C>>, up: bool) -> Place<Configuration<C>> {
+    pub fn going(
+        &self,
+        place: CurvePoint<Configuration<C>>,
+        up: bool,
+    ) -> CurvePoint<Configuration<C>> {
         match (place.tangent[self.column] > 0.0) == up {
             true => place,
             false => place.reversed(),

@@ -6,7 +6,7 @@ use super::{Curve, Driven};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::tolerance::{ROUNDING, SAME};
-use crate::solve::{Continuation, Place, Progress, SolutionCurve, Watch};
+use crate::solve::{Continuation, CurvePoint, Progress, SolutionCurve, Watch};
 use crate::system::{Coordinate, Held};
 
 /// A curve whose points are, or contain, configurations.
@@ -66,11 +66,11 @@ pub enum LocusEnd {
 #[derive(Clone, Debug)]
 pub struct Traced<P> {
     /// Places on it, in order.
-    pub places: Vec<Place<P>>,
+    pub places: Vec<CurvePoint<P>>,
     /// Ends at the first place and at the last; both [`LocusEnd::Closed`] if the curve closes.
     pub ends: [LocusEnd; 2],
     /// Crossings with other curves.
-    pub crossings: Vec<Place<P>>,
+    pub crossings: Vec<CurvePoint<P>>,
 }
 
 /// The box and the limits that curves are followed in.
@@ -135,7 +135,7 @@ impl Region<'_> {
     pub fn traced<C: ConfigurationCurve>(
         &self,
         curve: &mut C,
-        place: Place<C::Point>,
+        place: CurvePoint<C::Point>,
     ) -> Traced<C::Point> {
         let (mut places, end, mut crossings) = self.half(curve, place.clone());
         if end == LocusEnd::Closed {
@@ -147,7 +147,7 @@ impl Region<'_> {
         }
         let (back, start, more) = self.half(curve, place.reversed());
         crossings.extend(more);
-        let back = back.into_iter().rev().map(Place::reversed);
+        let back = back.into_iter().rev().map(CurvePoint::reversed);
         let mut all: Vec<_> = back.collect();
         all.pop();
         all.append(&mut places);
@@ -159,7 +159,11 @@ impl Region<'_> {
     }
 
     /// The curve from a place on in the direction of its tangent.
-    fn half<C: ConfigurationCurve>(&self, curve: &mut C, start: Place<C::Point>) -> Half<C::Point> {
+    fn half<C: ConfigurationCurve>(
+        &self,
+        curve: &mut C,
+        start: CurvePoint<C::Point>,
+    ) -> Half<C::Point> {
         const STEPS: usize = 100_000;
         let method = self.method;
         let mut places = vec![start.clone()];
@@ -211,8 +215,9 @@ impl Region<'_> {
                     false => LocusEnd::Limit,
                 };
                 if before[i] > 0.0 {
-                    let mut margin =
-                        |_: &mut C, p: &Place<C::Point>| self.margins(C::configuration(&p.at))[i];
+                    let mut margin = |_: &mut C, p: &CurvePoint<C::Point>| {
+                        self.margins(C::configuration(&p.at))[i]
+                    };
                     places.push(method.root(curve, &place, &to, &mut margin));
                 }
                 return (places, end, crossings);
@@ -232,8 +237,8 @@ impl Region<'_> {
     fn beyond<C: ConfigurationCurve>(
         &self,
         curve: &mut C,
-        place: &Place<C::Point>,
-    ) -> Option<[Place<C::Point>; 2]> {
+        place: &CurvePoint<C::Point>,
+    ) -> Option<[CurvePoint<C::Point>; 2]> {
         let method = self.method;
         let reach = 0.2 * method.longest;
         let point = method.branch_point(curve, &place.at, reach)?;
@@ -245,14 +250,14 @@ impl Region<'_> {
 }
 
 /// Places, the end, crossings.
-type Half<P> = (Vec<Place<P>>, LocusEnd, Vec<Place<P>>);
+type Half<P> = (Vec<CurvePoint<P>>, LocusEnd, Vec<CurvePoint<P>>);
 
 /// The place of a curve that Gauss–Newton steps of bounded length reach from afar, if they do.
 pub fn settled<C: SolutionCurve>(
     curve: &mut C,
     point: C::Point,
     method: &Continuation,
-) -> Option<Place<C::Point>> {
+) -> Option<CurvePoint<C::Point>> {
     let near = neared(curve, point, |size, _| size < 1e-3)?;
     method.settle(curve, near).ok()
 }
@@ -290,7 +295,7 @@ pub fn neared<C: SolutionCurve>(
 pub fn met_at<C: ConfigurationCurve>(
     curve: &mut C,
     traced: &Traced<C::Point>,
-    place: &Place<C::Point>,
+    place: &CurvePoint<C::Point>,
     method: &Continuation,
 ) -> Option<f64> {
     let goal = C::configuration(&place.at);
@@ -313,7 +318,7 @@ pub fn met_at<C: ConfigurationCurve>(
         return None;
     }
     // the foot of the place on a piece, by Newton steps from one of its ends
-    let foot_from = |curve: &mut C, from: &Place<C::Point>, to: &Place<C::Point>| {
+    let foot_from = |curve: &mut C, from: &CurvePoint<C::Point>, to: &CurvePoint<C::Point>| {
         const STEPS: usize = 12;
         let tangent = from.tangent[..curve.closed().unknowns()].to_vec();
         let tangent = curve.seen(tangent);
@@ -361,12 +366,12 @@ pub fn met_at<C: ConfigurationCurve>(
 /// The place between two where the curve comes back to its start, after the length `gone`.
 pub(super) fn closed<C: ConfigurationCurve>(
     curve: &mut C,
-    start: &Place<C::Point>,
-    from: &Place<C::Point>,
-    to: &Place<C::Point>,
+    start: &CurvePoint<C::Point>,
+    from: &CurvePoint<C::Point>,
+    to: &CurvePoint<C::Point>,
     gone: f64,
     method: &Continuation,
-) -> Option<Place<C::Point>> {
+) -> Option<CurvePoint<C::Point>> {
     let step = norm(&curve.apart(&from.at, &to.at));
     if gone <= 1.5 * step || norm(&curve.apart(&from.at, &start.at)) > 2.0 * step {
         return None;
@@ -374,7 +379,7 @@ pub(super) fn closed<C: ConfigurationCurve>(
     let freedoms = curve.apart(&start.at, &start.at).len();
     let tangent = start.tangent[..freedoms].to_vec();
     let mut ahead =
-        |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&start.at, &p.at), &tangent);
+        |curve: &mut C, p: &CurvePoint<C::Point>| dot(&curve.apart(&start.at, &p.at), &tangent);
     if !(ahead(curve, from) < 0.0 && ahead(curve, to) >= 0.0) {
         return None;
     }

@@ -1,6 +1,6 @@
 use crate::mechanism::Configuration;
-use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
-use crate::system::{Coordinate, System, Work};
+use crate::solve::{Newton, NewtonReport, Trail, Warm, WarmReport};
+use crate::system::{Coordinate, System, SystemWork};
 
 /// Follows a mechanism while its held coordinates move: one short solve for each change of them.
 ///
@@ -17,7 +17,7 @@ pub struct MotionTracker {
     system: System<f64>,
     warm: Warm,
     configuration: Configuration<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
     trail: Trail<Configuration<f64>>,
 }
 
@@ -90,7 +90,7 @@ impl MotionTracker {
 
     /// Solves for the held values last asked for by a method that also works from afar, when
     /// [`solve`](MotionTracker::solve) has failed. The branch found need not be the one followed so far.
-    pub fn recover(&mut self, newton: &Newton) -> Report {
+    pub fn recover(&mut self, newton: &Newton) -> NewtonReport {
         self.trail.forget();
         let mut trial = self.configuration.clone();
         newton.solve(

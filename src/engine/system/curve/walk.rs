@@ -9,9 +9,9 @@ use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::tolerance::NOT_PRINTED;
 use crate::number::{real, sorting::sort_by};
-use crate::solve::{ALIGNED, BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
+use crate::solve::{ALIGNED, BranchPoint, Continuation, CurvePoint, SolutionCurve, StepFailure};
 
-type CurvePlace = Place<Configuration<f64>>;
+type CurvePlace = CurvePoint<Configuration<f64>>;
 
 /// A function of places whose zeros are to be located; they are reported by its number.
 pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &CurvePlace) -> f64 + 'm>;

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::linear::CURVED;
 use crate::mechanism::Configuration;
 use crate::number::tolerance::NOT_PRINTED;
@@ -67,7 +67,7 @@ fn walk(
     system: &System<f64>,
     start: Configuration<f64>,
     multipliers: &[f64],
-    work: &RefCell<Work<f64>>,
+    work: &RefCell<SystemWork<f64>>,
 ) -> Configuration<f64> {
     let unknowns = system.unknowns().len();
     let slope =

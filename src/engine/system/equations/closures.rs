@@ -1,6 +1,6 @@
 //! Axes of closures in ground, and their constraint wrenches.
 
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Side};
@@ -27,7 +27,7 @@ pub struct ClosureWrenches<T> {
 
 impl<T: Factorable> System<T> {
     /// The axes of each closure at a configuration, assembled or not.
-    pub fn axes(&self, at: &Configuration<T>, work: &mut Work<T>) -> Vec<ClosureAxes<T>> {
+    pub fn axes(&self, at: &Configuration<T>, work: &mut SystemWork<T>) -> Vec<ClosureAxes<T>> {
         self.kinematics.place(at, &mut work.placement);
         let placement = &work.placement;
         let closures = self.plans.iter().zip(&self.closures);
@@ -50,7 +50,7 @@ impl<T: Factorable> System<T> {
     pub(crate) fn rods(
         &self,
         at: &Configuration<T>,
-        work: &Work<T>,
+        work: &SystemWork<T>,
     ) -> Option<Vec<([Vector3<T>; 2], T)>> {
         let closures = self.plans.iter().zip(&self.closures);
         let rods = closures.map(|(plan, closure)| {
@@ -73,7 +73,7 @@ impl<T: Factorable> System<T> {
     pub fn closure_wrenches(
         &self,
         at: &Configuration<T>,
-        work: &Work<T>,
+        work: &SystemWork<T>,
     ) -> Vec<ClosureWrenches<T>> {
         let wrenches = self.closures.iter().zip(&self.plans);
         wrenches

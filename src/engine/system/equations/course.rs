@@ -1,6 +1,6 @@
 //! Equations while the dimensions change.
 
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::geometry::{Rotation, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, KinematicsCourse, PoseCoordinate, Side, orientation_rows};
@@ -60,7 +60,7 @@ impl<T: Factorable> System<T> {
         rates: &[T],
         way: Option<(&ConstantsCourse<T>, T)>,
         slots: &mut [(Vector3<T>, Vector3<T>)],
-        work: &mut Work<T>,
+        work: &mut SystemWork<T>,
     ) {
         let chains = way.map(|(course, s)| (&course.kinematics, s));
         (self.kinematics).drift((&at.joints, rates), chains, &work.placement, slots);
@@ -95,7 +95,7 @@ impl<T: Factorable> System<T> {
         (platform, coordinate): (usize, PoseCoordinate),
         value: Dual<T>,
         at: &Configuration<T>,
-        work: &mut Work<T>,
+        work: &mut SystemWork<T>,
     ) {
         if let Some(row) = self.coordinate_row(platform, coordinate) {
             let pose = at.platforms[platform].pose().map(Dual::constant);
@@ -109,7 +109,7 @@ impl<T: Factorable> System<T> {
         platform: usize,
         wanted: &Rotation<Dual<T>>,
         at: &Configuration<T>,
-        work: &mut Work<T>,
+        work: &mut SystemWork<T>,
     ) {
         if let Some(row) = self.orientation_row(platform) {
             let pose = at.platforms[platform].pose().map(Dual::constant);
@@ -121,7 +121,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// The dimensions at another place of the way. Nothing allocates.
-    pub(crate) fn go(&mut self, course: &ConstantsCourse<T>, s: T, work: &mut Work<T>) {
+    pub(crate) fn go(&mut self, course: &ConstantsCourse<T>, s: T, work: &mut SystemWork<T>) {
         (self.kinematics).go(&course.kinematics, s, &mut work.placement);
         for (closure, squared, from, change) in &course.lengths {
             let power = *from + *change * s;

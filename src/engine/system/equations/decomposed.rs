@@ -1,6 +1,6 @@
 //! The Jacobian decomposed: as a whole, or a large one group of rows after another.
 
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::linear::{Decomposition, RowGroup, SPECTRUM_LIMIT, dense, dot};
 
 impl System<f64> {
@@ -10,7 +10,7 @@ impl System<f64> {
     }
 
     /// The Jacobian last evaluated, decomposed.
-    pub fn decomposition(&self, work: &Work<f64>) -> Decomposition {
+    pub fn decomposition(&self, work: &SystemWork<f64>) -> Decomposition {
         self.decomposed(self.unknowns.len(), self.jacobian_rows(work))
     }
 
@@ -24,7 +24,7 @@ impl System<f64> {
     }
 
     /// uᵀ J v for the Jacobian last evaluated.
-    pub fn form(&self, work: &Work<f64>, u: &[f64], v: &[f64]) -> f64 {
+    pub fn form(&self, work: &SystemWork<f64>, u: &[f64], v: &[f64]) -> f64 {
         let mut first = 0;
         let groups = self.jacobian_rows(work).into_iter().map(|group| {
             let u = &u[first..first + group.count];
@@ -38,7 +38,7 @@ impl System<f64> {
     }
 
     /// The Jacobian last evaluated as groups of rows, in their order, with the unknowns that each group touches.
-    pub fn jacobian_rows(&self, work: &Work<f64>) -> Vec<RowGroup> {
+    pub fn jacobian_rows(&self, work: &SystemWork<f64>) -> Vec<RowGroup> {
         let blocks = work.jacobian.blocks().iter().map(|filled| RowGroup {
             count: filled.block.rows,
             unknowns: filled.block.unknowns().collect(),

@@ -1,5 +1,5 @@
 use super::layout::Unknown;
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, ConfigurationRef, PlatformPose};
@@ -116,7 +116,7 @@ impl System<f64> {
         at: &Configuration<f64>,
         weight: f64,
         multipliers: &[f64],
-        work: &mut Work<f64>,
+        work: &mut SystemWork<f64>,
     ) -> (Vec<f64>, f64) {
         self.linearise(at, work);
         let jacobian = self.dense_jacobian(work);

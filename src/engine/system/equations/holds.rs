@@ -1,7 +1,7 @@
 //! The rows of platforms that are held in part.
 
 use super::layout::measured;
-use super::{Held, HoldRow, System, Unknown, Work};
+use super::{Held, HoldRow, System, SystemWork, Unknown};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, orientation_rows};
 use crate::number::Field;
@@ -22,7 +22,7 @@ pub(crate) fn hold_rows<T: Field>(held: &Held<T>, centre: &[f64; 3]) -> Vec<Hold
 
 impl<T: Factorable> System<T> {
     /// Evaluates these rows and their derivatives.
-    pub(super) fn hold_residuals(&self, at: &Configuration<T>, work: &mut Work<T>) {
+    pub(super) fn hold_residuals(&self, at: &Configuration<T>, work: &mut SystemWork<T>) {
         let width = self.empty.shared().len();
         let first = self.hold_rows().start;
         let twist_place = |platform| {

@@ -1,7 +1,7 @@
 //! Rates of the equations, for following a solution while the inputs change.
 
 use super::layout::{HoldRow, measured};
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::geometry::Rotation;
 use crate::linear::{CANCELLED, Factorable, Qr, RANK_TOLERANCE};
 use crate::mechanism::PoseCoordinate;
@@ -16,7 +16,7 @@ impl<T: Factorable> System<T> {
         &self,
         at: &Configuration<T>,
         rates: &[T],
-        work: &'a mut Work<T>,
+        work: &'a mut SystemWork<T>,
     ) -> &'a mut [T] {
         let twist = |platform: usize| {
             let first = self.joint_scales.len() + 6 * platform;
@@ -66,7 +66,7 @@ impl<T: Factorable> System<T> {
 
     /// Makes rates of angles, as [`row_rates`](Self::row_rates) finds them, rates of the rows: over numbers that are not
     /// real these rows are entire, and change cos(pitch) times as fast where they vanish.
-    pub fn stretch_angle_rates(&self, work: &mut Work<T>) {
+    pub fn stretch_angle_rates(&self, work: &mut SystemWork<T>) {
         if T::REAL {
             return;
         }
@@ -85,7 +85,7 @@ impl<T: Factorable> System<T> {
 
     /// For each platform angle held by itself a number that is positive at its value, and negative half a turn from
     /// there, which the entire rows also allow.
-    pub fn sides_of_angles(&self, work: &Work<T>) -> Vec<T> {
+    pub fn sides_of_angles(&self, work: &SystemWork<T>) -> Vec<T> {
         let side = |hold: &HoldRow<T>| match hold {
             HoldRow::Coordinate(platform, coordinate, value, reference) => {
                 let pose = measured(work.placement.pose(1 + platform), reference);
@@ -97,24 +97,24 @@ impl<T: Factorable> System<T> {
     }
 
     /// The residual as it stands, to be replaced.
-    pub fn residual_mut<'a>(&self, work: &'a mut Work<T>) -> &'a mut [T] {
+    pub fn residual_mut<'a>(&self, work: &'a mut SystemWork<T>) -> &'a mut [T] {
         &mut work.residual
     }
 
     /// The step last computed, in the order of the unknowns, dimensionless.
-    pub fn step_of<'a>(&self, work: &'a Work<T>) -> &'a [T] {
+    pub fn step_of<'a>(&self, work: &'a SystemWork<T>) -> &'a [T] {
         &work.step
     }
 
     /// The step −J⁺r for another residual and the factors last made.
-    pub fn step_for(&self, residual: &[T], work: &mut Work<T>) -> f64 {
+    pub fn step_for(&self, residual: &[T], work: &mut SystemWork<T>) -> f64 {
         work.residual.copy_from_slice(residual);
         self.step(work)
     }
 
     /// Divides equations by the length of their row of the Jacobian where that exceeds 1, and writes these factors down:
     /// relative to long rows the pivots of others would seem lost.
-    pub fn shorten_rows(&self, work: &mut Work<T>, factors: &mut [f64]) {
+    pub fn shorten_rows(&self, work: &mut SystemWork<T>, factors: &mut [f64]) {
         let width = self.empty.shared().len().max(1);
         let mut first = 0;
         for b in 0..self.empty.blocks().len() {
@@ -157,14 +157,14 @@ impl<T: Factorable> System<T> {
 
     /// Factorises the Jacobian last evaluated where solutions are known to be isolated, however badly they are
     /// determined: only pivots that rounding loses are.
-    pub fn factorise_isolated(&self, work: &mut Work<T>) {
+    pub fn factorise_isolated(&self, work: &mut SystemWork<T>) {
         work.jacobian.trust(SUMMED);
         work.jacobian.factorise(&work.hold_rows, 0.0);
         work.jacobian.trust(RANK_TOLERANCE);
     }
 
     /// Number of unknowns that the factors last made leave undetermined.
-    pub fn undetermined(&self, work: &Work<T>) -> usize {
+    pub fn undetermined(&self, work: &SystemWork<T>) -> usize {
         work.jacobian.nullity()
     }
 
@@ -183,7 +183,7 @@ impl<T: Factorable> System<T> {
     /// how near it is to losing rank. The smallest is zero when there are more unknowns than rows.
     ///
     /// Rows and columns longer than 1 are shortened first: complex rotations and positions have no bound.
-    pub fn pivots(&self, work: &Work<T>) -> (f64, f64) {
+    pub fn pivots(&self, work: &SystemWork<T>) -> (f64, f64) {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let mut dense = self.dense_jacobian(work);
         for r in 0..rows {
@@ -203,7 +203,7 @@ impl<T: Factorable> System<T> {
 
     /// Number of independent directions that the Jacobian maps to pivots smaller than `tolerance` times the largest, or
     /// to rounding.
-    pub fn nullity(&self, tolerance: f64, work: &Work<T>) -> usize {
+    pub fn nullity(&self, tolerance: f64, work: &SystemWork<T>) -> usize {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let pivots = pivots_of(rows, columns, &self.dense_jacobian(work));
         let counts = |pivot: &&f64| **pivot > (tolerance * pivots[0]).max(CANCELLED);

@@ -1,11 +1,11 @@
 //! Assembled configurations where the equations may lose rank.
 
-use super::{System, Work};
+use super::{System, SystemWork};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
 use crate::number::tolerance::{DOUBLE, EXACT};
 use crate::solve::{
-    Equations, Newton, Report, Stage, Stop, Watch, deflating_step, step_off_saddle,
+    Equations, Newton, NewtonReport, Stage, Stop, Watch, deflating_step, step_off_saddle,
 };
 
 /// Newton's method from `at`, also where convergence is slow. Near a solution at which equations only touch zero, as
@@ -15,8 +15,8 @@ pub fn solve(
     newton: &Newton,
     system: &System<f64>,
     at: &mut Configuration<f64>,
-    work: &mut Work<f64>,
-) -> Report {
+    work: &mut SystemWork<f64>,
+) -> NewtonReport {
     const SADDLE: f64 = 0.05;
     /// Farthest distance of a saddle from the end of Newton's method.
     const NEAR: f64 = 0.1;
@@ -63,7 +63,7 @@ pub fn solve(
             break;
         }
         *at = beside;
-        report = Report {
+        report = NewtonReport {
             steps: report.steps + again.steps,
             ..again
         };
@@ -102,7 +102,7 @@ fn lost(left: f64) -> f64 {
 /// Residual and Jacobian at a configuration displaced.
 fn linearised<'a>(
     system: &'a System<f64>,
-    work: &'a mut Work<f64>,
+    work: &'a mut SystemWork<f64>,
     at: &'a Configuration<f64>,
 ) -> impl FnMut(&[f64]) -> (Vec<f64>, Vec<f64>) + 'a {
     move |shift: &[f64]| {
@@ -116,7 +116,7 @@ fn linearised<'a>(
 /// from one another by what is `left` of the equations.
 fn levelled(
     system: &System<f64>,
-    work: &mut Work<f64>,
+    work: &mut SystemWork<f64>,
     at: &Configuration<f64>,
     left: f64,
 ) -> Option<Configuration<f64>> {
@@ -133,7 +133,7 @@ fn levelled(
 /// more is left than what they do not see.
 fn level(
     system: &System<f64>,
-    work: &mut Work<f64>,
+    work: &mut SystemWork<f64>,
     mut at: Configuration<f64>,
 ) -> Option<Configuration<f64>> {
     const STEPS: usize = 30;
@@ -167,7 +167,7 @@ fn level(
 /// rounding; `None` if they go further than `reach`, do not arrive or are stopped.
 pub fn settle(
     system: &System<f64>,
-    work: &mut Work<f64>,
+    work: &mut SystemWork<f64>,
     mut at: Configuration<f64>,
     reach: f64,
     watch: Option<&Watch>,

@@ -6,7 +6,7 @@ use super::{Attempt, Search};
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::real;
-use crate::solve::{Report, Stop};
+use crate::solve::{NewtonReport, Stop};
 use crate::system::HeldPlatform;
 
 /// Longest step of a held coordinate, in rad or characteristic lengths.
@@ -55,7 +55,7 @@ impl Search<'_> {
             }
             if share == 1.0 {
                 let steps = taken;
-                let report = Report { steps, ..report };
+                let report = NewtonReport { steps, ..report };
                 return Some(Attempt { at, report });
             }
         }

@@ -5,7 +5,7 @@ use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PoseCoordinate};
 use crate::number::Number;
 use crate::solve::Equations;
-use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
+use crate::system::{Coordinate, Held, HeldPlatform, System, SystemWork, Unknown};
 
 /// The rates of all unknowns for those of the held coordinates h: ẋ = −J⁺ H ḣ, where H ḣ are the rates of the rows in a
 /// motion of h alone.
@@ -107,7 +107,7 @@ impl Driving {
         system: &System<T>,
         at: &Configuration<T>,
         given: &[T],
-        work: &mut Work<T>,
+        work: &mut SystemWork<T>,
         rates: &mut [T],
     ) {
         rates.fill(T::zero());
@@ -127,7 +127,7 @@ impl Driving {
         system: &System<T>,
         at: &Configuration<T>,
         given: &[T],
-        work: &'a mut Work<T>,
+        work: &'a mut SystemWork<T>,
         rates: &[T],
     ) -> &'a mut [T] {
         let rows = system.row_rates(at, rates, work);
@@ -143,7 +143,7 @@ impl Driving {
     pub(super) fn rest<T: Factorable>(
         &self,
         system: &System<T>,
-        work: &mut Work<T>,
+        work: &mut SystemWork<T>,
         rates: &mut [T],
     ) {
         system.stretch_angle_rates(work);

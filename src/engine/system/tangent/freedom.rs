@@ -9,7 +9,7 @@ use crate::linear::{INDEPENDENT, Svd, norm, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::number::sorting::sort_by;
 use crate::solve::{Equations, Newton};
-use crate::system::{Coordinate, Held, Places, System, Unknown, Work};
+use crate::system::{Coordinate, Held, Places, System, SystemWork, Unknown};
 
 /// The infinitesimal motions of a mechanism at a configuration, with some coordinates held.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl Freedoms {
     }
 
     /// As [`Freedoms::at`], with equations and storage at hand.
-    pub fn of(system: &System<f64>, at: &Configuration<f64>, work: &mut Work<f64>) -> Self {
+    pub fn of(system: &System<f64>, at: &Configuration<f64>, work: &mut SystemWork<f64>) -> Self {
         system.linearise(at, work);
         let unknowns = system.unknowns().to_vec();
         let (motions, singular_values) = match system.is_large() {

@@ -4,7 +4,7 @@ use super::twists::FrameTwists;
 use crate::linear::{Decomposition, product};
 use crate::mechanism::{Configuration, Frame, Mechanism, Point};
 use crate::solve::Equations;
-use crate::system::{Coordinate, Held, System, Work};
+use crate::system::{Coordinate, Held, System, SystemWork};
 
 /// A coordinate or frame whose rate is an input or an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub enum Lock {
 #[derive(Clone, Debug)]
 pub struct Locked {
     system: System<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
     locks: Vec<Lock>,
     /// Twists of the frames and points among the locks, in their order.
     twists: FrameTwists<f64>,

@@ -8,7 +8,7 @@ use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{ClosureWrenches, Coordinate, Held, System, Unknown, Work};
+use crate::system::{ClosureWrenches, Coordinate, Held, System, SystemWork, Unknown};
 
 use super::driving::{Driving, Entrance};
 pub use frames::FrameMotion;
@@ -31,7 +31,7 @@ pub struct Motion<T: Factorable = f64> {
     units: Vec<T>,
     held: Held<f64>,
     system: System<T>,
-    work: Work<T>,
+    work: SystemWork<T>,
     changing: ChangingSystem<T>,
     length: f64,
     scales: Vec<f64>,
@@ -48,7 +48,7 @@ pub struct Motion<T: Factorable = f64> {
 #[derive(Clone, Debug)]
 struct ChangingSystem<T: Factorable> {
     system: System<Dual<T>>,
-    work: Work<Dual<T>>,
+    work: SystemWork<Dual<T>>,
     /// For each row of the real equations that of these, which may be ordered otherwise.
     rows: Vec<usize>,
     path: Configuration<Dual<T>>,

@@ -15,7 +15,7 @@ use crate::linear::{
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::equations::solve;
-use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
+use crate::system::{ClosureWrenches, Held, System, SystemWork, Unknown};
 
 pub use follow::FiniteStep;
 pub use lasting::Lasting;
@@ -25,7 +25,7 @@ pub use lasting::Lasting;
 pub struct Neighbourhood<'a> {
     mechanism: &'a Mechanism,
     system: System<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
     frames: FrameTwists<f64>,
     watch: Option<&'a Watch<'a>>,
 }

@@ -48,12 +48,12 @@ const SECOND: FieldGroup = FieldGroup {
 
 impl FileReader {
     /// The frame of a body.
-    pub(super) fn body(&mut self, piece: Piece) -> Option<AxisPlace> {
+    pub(super) fn body(&mut self, piece: RawValue) -> Option<AxisPlace> {
         let mut fields = self.fields(piece, BODY)?;
         self.point_or_frame(&mut fields, "origin")
     }
 
-    pub(super) fn point(&mut self, piece: Piece) -> Option<PointDescription> {
+    pub(super) fn point(&mut self, piece: RawValue) -> Option<PointDescription> {
         let mut fields = self.fields(piece, POINT)?;
         let body = self.require(&mut fields, "body");
         let body = body.and_then(|body| self.text(body, Expected::BODY));
@@ -61,7 +61,7 @@ impl FileReader {
         body.map(|body| PointDescription { body, place })
     }
 
-    pub(super) fn axis(&mut self, piece: Piece) -> Option<AxisDescription> {
+    pub(super) fn axis(&mut self, piece: RawValue) -> Option<AxisDescription> {
         let (known, word) = (&AxisKind::ALL, AxisKind::word);
         let expected =
             Expected::Said("a joint such as `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`");

@@ -3,7 +3,7 @@
 use super::*;
 
 impl FileReader {
-    pub(super) fn closed_form(&mut self, piece: Piece) -> Option<ClosedFormDescription> {
+    pub(super) fn closed_form(&mut self, piece: RawValue) -> Option<ClosedFormDescription> {
         let mut fields = self.fields(piece, ClosedFormDescription::GROUP)?;
         // reading takes the fields out, so the kind of formula is decided first
         let pose = fields.gives(&["position", "rotation", "transform", "entries"]);
@@ -21,7 +21,7 @@ impl FileReader {
 
     pub(super) fn matrix<const N: usize>(
         &mut self,
-        rows: [Piece; 3],
+        rows: [RawValue; 3],
         expected: Expected,
     ) -> Option<[[Entry; N]; 3]> {
         let rows = rows.map(|row| self.vector(row, expected));
@@ -32,7 +32,7 @@ impl FileReader {
     /// Three rows of `[R | p]`, and perhaps the fourth that every homogeneous transform has.
     pub(super) fn homogeneous(
         &mut self,
-        piece: Piece,
+        piece: RawValue,
         expected: Expected,
     ) -> Option<[[Entry; 4]; 3]> {
         const ROW: Expected = Expected::Said("a row of a transform");

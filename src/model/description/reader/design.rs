@@ -91,7 +91,7 @@ impl FileReader {
         fields: &mut Fields<'a>,
         field: &str,
         noun: Noun,
-        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
+        read: impl Fn(&mut Self, RawValue<'a>) -> Option<T>,
     ) -> Vec<Named<T>> {
         let piece = fields.take(field);
         piece.map_or_else(Vec::new, |piece| self.map(piece, noun, read))
@@ -113,7 +113,7 @@ impl FileReader {
     }
 
     /// A range, a list of values, or an expression.
-    fn varied(&mut self, piece: Piece) -> Option<Varied> {
+    fn varied(&mut self, piece: RawValue) -> Option<Varied> {
         Some(match piece.shape() {
             PieceShape::Tuple => Varied::Range(self.vector(piece, Expected::RANGE)?),
             PieceShape::List if piece.elements().is_empty() => {
@@ -126,14 +126,14 @@ impl FileReader {
     }
 
     /// One entry, or a list of them.
-    fn each(&mut self, piece: Piece) -> Option<Vec<Entry>> {
+    fn each(&mut self, piece: RawValue) -> Option<Vec<Entry>> {
         match piece.shape() {
             PieceShape::List => Some(self.list(piece, Expected::ENTRY, Self::entry)),
             _ => Some(vec![self.entry(piece)?]),
         }
     }
 
-    fn position(&mut self, piece: Piece) -> Option<Vec<Named<Vec<Entry>>>> {
+    fn position(&mut self, piece: RawValue) -> Option<Vec<Named<Vec<Entry>>>> {
         Some(self.map(piece, Noun::Target, |reader, piece| {
             if !matches!(piece.shape(), PieceShape::Tuple) {
                 return Some(vec![reader.entry(piece)?]);

@@ -4,7 +4,7 @@ use super::*;
 use crate::algebra::{Expression, ParseError};
 
 impl FileReader {
-    pub(super) fn text(&mut self, piece: Piece, expected: Expected) -> Option<Spanned<String>> {
+    pub(super) fn text(&mut self, piece: RawValue, expected: Expected) -> Option<Spanned<String>> {
         let PieceShape::Text = piece.shape() else {
             self.wrong_type(piece, expected);
             return None;
@@ -13,18 +13,18 @@ impl FileReader {
         Some(Spanned::new(literal.text.into_owned(), piece.span()))
     }
 
-    pub(super) fn entry(&mut self, piece: Piece) -> Option<Entry> {
+    pub(super) fn entry(&mut self, piece: RawValue) -> Option<Entry> {
         self.entry_of(piece, Expression::parse)
     }
 
     /// An entry over quantities.
-    pub(super) fn quantity(&mut self, piece: Piece) -> Option<Entry> {
+    pub(super) fn quantity(&mut self, piece: RawValue) -> Option<Entry> {
         self.entry_of(piece, Expression::parse_quantity)
     }
 
     fn entry_of(
         &mut self,
-        piece: Piece,
+        piece: RawValue,
         parse: fn(&str) -> Result<Expression, ParseError>,
     ) -> Option<Entry> {
         match piece.shape() {
@@ -60,7 +60,7 @@ impl FileReader {
         None
     }
 
-    pub(super) fn entries<const N: usize>(&mut self, pieces: [Piece; N]) -> Option<[Entry; N]> {
+    pub(super) fn entries<const N: usize>(&mut self, pieces: [RawValue; N]) -> Option<[Entry; N]> {
         // All of them are read before one that is wrong puts an end to it.
         let entries = pieces.map(|piece| self.entry(piece)).into_iter().flatten();
         entries.collect::<Vec<_>>().try_into().ok()
@@ -68,7 +68,7 @@ impl FileReader {
 
     pub(super) fn vector<const N: usize>(
         &mut self,
-        piece: Piece,
+        piece: RawValue,
         expected: Expected,
     ) -> Option<[Entry; N]> {
         let vector = self.tuple(piece, expected)?;
@@ -78,11 +78,11 @@ impl FileReader {
     /// One of the known words, with the parentheses after it.
     pub(super) fn word<'a, T: Copy>(
         &mut self,
-        piece: Piece<'a>,
+        piece: RawValue<'a>,
         expected: Expected,
         known: &[T],
         written: fn(T) -> &'static str,
-    ) -> Option<(T, Option<Piece<'a>>)> {
+    ) -> Option<(T, Option<RawValue<'a>>)> {
         let PieceShape::Word { word, content } = piece.shape() else {
             self.wrong_type(piece, expected);
             return None;
@@ -98,7 +98,7 @@ impl FileReader {
     /// One of the known words, without parentheses.
     pub(super) fn bare_word<T: Copy>(
         &mut self,
-        piece: Piece,
+        piece: RawValue,
         expected: Expected,
         known: &[T],
         written: fn(T) -> &'static str,
@@ -113,13 +113,13 @@ impl FileReader {
         Some(self.word(piece, expected, known, written)?.0)
     }
 
-    pub(super) fn transform(&mut self, piece: Piece) -> Vec<Displacement> {
+    pub(super) fn transform(&mut self, piece: RawValue) -> Vec<Displacement> {
         self.list(piece, Expected::TRANSFORM, |reader, step| {
             reader.displacement(step)
         })
     }
 
-    pub(super) fn displacement(&mut self, piece: Piece) -> Option<Displacement> {
+    pub(super) fn displacement(&mut self, piece: RawValue) -> Option<Displacement> {
         let words = &Displacement::<Entry>::WORDS;
         let expected = Expected::Said("a displacement such as `Tx(…)` or `Rz(…)`");
         let (word, content) = self.word(piece, expected, words, |word| word)?;

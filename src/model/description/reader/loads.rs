@@ -28,7 +28,11 @@ const TABLE: Expected =
     Expected::Said("a list of rows `[(0, 10), (0.1, 12)]`, or the name of a CSV file");
 
 impl FileReader {
-    pub(super) fn shape(&mut self, piece: Piece, expected: Expected) -> Option<ShapeDescription> {
+    pub(super) fn shape(
+        &mut self,
+        piece: RawValue,
+        expected: Expected,
+    ) -> Option<ShapeDescription> {
         let (kind, content) = self.word(piece, expected, &Shape::ALL, Shape::word)?;
         let expected = sizes(kind);
         let found = content.map_or(0, |content| content.elements().len());
@@ -41,7 +45,7 @@ impl FileReader {
         Some(ShapeDescription { kind, sizes })
     }
 
-    pub(super) fn load(&mut self, piece: Piece) -> Option<LoadDescription> {
+    pub(super) fn load(&mut self, piece: RawValue) -> Option<LoadDescription> {
         let (kind, _) = self.word(piece, LOAD, &LoadKind::ALL, LoadKind::word)?;
         let mut fields = self.fields(piece, kind.group())?;
         let mut read = Vec::new();
@@ -75,7 +79,7 @@ impl FileReader {
         })
     }
 
-    fn yes(&mut self, piece: Piece) -> Option<bool> {
+    fn yes(&mut self, piece: RawValue) -> Option<bool> {
         match piece.shape() {
             PieceShape::Word {
                 word: word @ ("true" | "false"),
@@ -88,7 +92,7 @@ impl FileReader {
         }
     }
 
-    fn table(&mut self, piece: Piece) -> Option<Vec<[Entry; 2]>> {
+    fn table(&mut self, piece: RawValue) -> Option<Vec<[Entry; 2]>> {
         let rows = self.list(piece, TABLE, |reader, row| {
             reader.vector(row, Expected::Said("a row `(value, force)`"))
         });

@@ -9,13 +9,13 @@ use super::*;
 pub(super) struct Fields<'a> {
     pub structure: FieldGroup,
     pub span: Range<usize>,
-    pieces: Vec<(&'a str, Piece<'a>)>,
+    pieces: Vec<(&'a str, RawValue<'a>)>,
     /// Fields that are there under a misspelt name: they must not be called missing too.
     misspelt: Vec<&'static str>,
 }
 
 impl<'a> Fields<'a> {
-    pub(super) fn take(&mut self, field: &str) -> Option<Piece<'a>> {
+    pub(super) fn take(&mut self, field: &str) -> Option<RawValue<'a>> {
         let place = self.pieces.iter().position(|(name, _)| *name == field)?;
         Some(self.pieces.swap_remove(place).1)
     }
@@ -38,10 +38,10 @@ impl FileReader {
     /// The contents of the parentheses after a word.
     pub(super) fn content<'a, const N: usize>(
         &mut self,
-        whole: Piece,
-        content: Option<Piece<'a>>,
+        whole: RawValue,
+        content: Option<RawValue<'a>>,
         expected: Expected,
-    ) -> Option<[Piece<'a>; N]> {
+    ) -> Option<[RawValue<'a>; N]> {
         match content {
             Some(content) => self.tuple(content, expected),
             None => self.wrong_length(whole, expected, N, 0),
@@ -51,7 +51,7 @@ impl FileReader {
     /// Notes that a piece is made of too few or too many parts.
     pub(super) fn wrong_length<T>(
         &mut self,
-        piece: Piece,
+        piece: RawValue,
         of: Expected,
         expected: usize,
         found: usize,
@@ -68,7 +68,7 @@ impl FileReader {
     /// Named fields in parentheses, with or without the name of the structure before them.
     pub(super) fn fields<'a>(
         &mut self,
-        piece: Piece<'a>,
+        piece: RawValue<'a>,
         structure: FieldGroup,
     ) -> Option<Fields<'a>> {
         let expected = Expected::Fields(structure);
@@ -127,7 +127,7 @@ impl FileReader {
         &mut self,
         fields: &mut Fields<'a>,
         field: &'static str,
-    ) -> Option<Piece<'a>> {
+    ) -> Option<RawValue<'a>> {
         let piece = fields.take(field);
         if piece.is_none() && !fields.misspelt.contains(&field) {
             let kind = ProblemKind::MissingField {
@@ -157,9 +157,9 @@ impl FileReader {
     /// A map from names to things.
     pub(super) fn map<'a, T>(
         &mut self,
-        piece: Piece<'a>,
+        piece: RawValue<'a>,
         noun: Noun,
-        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
+        read: impl Fn(&mut Self, RawValue<'a>) -> Option<T>,
     ) -> Vec<Named<T>> {
         let PieceShape::Map = piece.shape() else {
             self.wrong_type(piece, Expected::MapOf(noun));
@@ -194,9 +194,9 @@ impl FileReader {
 
     pub(super) fn list<'a, T>(
         &mut self,
-        piece: Piece<'a>,
+        piece: RawValue<'a>,
         expected: Expected,
-        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
+        read: impl Fn(&mut Self, RawValue<'a>) -> Option<T>,
     ) -> Vec<T> {
         let PieceShape::List = piece.shape() else {
             self.wrong_type(piece, expected);
@@ -208,9 +208,9 @@ impl FileReader {
 
     pub(super) fn tuple<'a, const N: usize>(
         &mut self,
-        piece: Piece<'a>,
+        piece: RawValue<'a>,
         of: Expected,
-    ) -> Option<[Piece<'a>; N]> {
+    ) -> Option<[RawValue<'a>; N]> {
         let PieceShape::Tuple = piece.shape() else {
             self.wrong_type(piece, of);
             return None;
@@ -223,14 +223,14 @@ impl FileReader {
         }
     }
 
-    pub(super) fn wrong_type(&mut self, piece: Piece, expected: Expected) {
+    pub(super) fn wrong_type(&mut self, piece: RawValue, expected: Expected) {
         let found = piece.found();
         self.note(ProblemKind::WrongType { expected, found }, piece.span());
     }
 
     pub(super) fn unknown_word(
         &mut self,
-        piece: Piece,
+        piece: RawValue,
         expected: Expected,
         word: &str,
         known: Vec<&'static str>,
@@ -247,7 +247,7 @@ impl FileReader {
     }
 
     /// Notes what `ron` refuses in a piece that it had let pass before.
-    pub(super) fn split<T>(&mut self, piece: Piece, result: Result<T, ron::Error>) -> Option<T> {
+    pub(super) fn split<T>(&mut self, piece: RawValue, result: Result<T, ron::Error>) -> Option<T> {
         let refused = |error| {
             let (error, found) = (Box::new(error), None);
             self.note(ProblemKind::Syntax { error, found }, piece.span());

@@ -1,7 +1,7 @@
 //! Values of fields, and the structures made of them.
 
 use super::*;
-use crate::description::piece::{Piece, PieceShape};
+use crate::description::piece::{PieceShape, RawValue};
 use crate::description::structures::{axes_structures, load_structures, part_structures};
 
 /// Reading of structures.
@@ -29,7 +29,7 @@ macro_rules! readable {
 
             /// Reads fields in parentheses.
             #[allow(dead_code)]
-            fn of_piece(reader: &mut FileReader, piece: Piece) -> Option<Self> {
+            fn of_piece(reader: &mut FileReader, piece: RawValue) -> Option<Self> {
                 let mut fields = reader.fields(piece, Self::GROUP)?;
                 Some(Self::of_fields(reader, &mut fields))
             }
@@ -74,13 +74,13 @@ pub(super) trait FileItem: Sized {
     const REQUIRED: bool = false;
 
     /// Reads it where something is expected; `None` if it has problems.
-    fn read(reader: &mut FileReader, piece: Piece, expected: Expected) -> Option<Self>;
+    fn read(reader: &mut FileReader, piece: RawValue, expected: Expected) -> Option<Self>;
 }
 
 macro_rules! items {
     ($($type:ty: |$reader:ident, $piece:ident, $expected:pat_param| $read:expr;)+) => {$(
         impl FileItem for $type {
-            fn read($reader: &mut FileReader, $piece: Piece, $expected: Expected) -> Option<Self> {
+            fn read($reader: &mut FileReader, $piece: RawValue, $expected: Expected) -> Option<Self> {
                 $read
             }
         }
@@ -149,7 +149,7 @@ items! {
 impl FileItem for AxisDescription {
     const REQUIRED: bool = true;
 
-    fn read(reader: &mut FileReader, piece: Piece, _: Expected) -> Option<Self> {
+    fn read(reader: &mut FileReader, piece: RawValue, _: Expected) -> Option<Self> {
         reader.axis(piece)
     }
 }
@@ -163,7 +163,7 @@ pub(super) trait FileField: Sized {
     fn absent() -> Self;
 
     /// Reads it where something is expected; `None` if it has problems.
-    fn read(reader: &mut FileReader, piece: Piece, expected: Expected) -> Option<Self>;
+    fn read(reader: &mut FileReader, piece: RawValue, expected: Expected) -> Option<Self>;
 }
 
 macro_rules! fields {
@@ -175,7 +175,7 @@ macro_rules! fields {
                 $absent
             }
 
-            fn read($reader: &mut FileReader, $piece: Piece, $expected: Expected) -> Option<Self> {
+            fn read($reader: &mut FileReader, $piece: RawValue, $expected: Expected) -> Option<Self> {
                 $read
             }
         }

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use rustc_hash::FxHashMap;
 
-use super::{Operation, Place};
+use super::{Operation, OperationIndex};
 use crate::algebra::evaluation::call;
 use crate::number::Number;
 use crate::number::trigonometry::{atan2_of_each, sin_cos_of_each};
@@ -33,7 +33,7 @@ pub struct Batch {
     /// The registers of constants.
     constants: Vec<(u32, f64)>,
     /// The registers of the places that were asked for.
-    results: FxHashMap<Place, u32>,
+    results: FxHashMap<OperationIndex, u32>,
     registers: u32,
 }
 
@@ -44,9 +44,9 @@ pub struct Registers(Vec<Register>);
 impl Batch {
     /// The program that computes the places of each section, without what none of them needs. `inputs` is the number of
     /// inputs.
-    pub fn new(operations: &[Operation], inputs: usize, sections: &[Vec<Place>]) -> Self {
+    pub fn new(operations: &[Operation], inputs: usize, sections: &[Vec<OperationIndex>]) -> Self {
         let needed = needed(operations, sections);
-        let kept: Vec<Place> = sections.concat();
+        let kept: Vec<OperationIndex> = sections.concat();
         let (written, constants, places) = written(operations, sections.len(), &needed, &kept);
         let mut assignment = RegisterAssignment::new(inputs, constants.len(), places);
         for (place, operation) in operations.iter().enumerate() {
@@ -67,7 +67,7 @@ impl Batch {
         let sections = written.into_iter();
         let sections = sections.map(|section| section.into_iter().map(&mut assigned).collect());
         let sections = sections.collect();
-        let result = |&place: &Place| (place, assignment.register[place as usize]);
+        let result = |&place: &OperationIndex| (place, assignment.register[place as usize]);
         Batch {
             results: kept.iter().map(result).collect(),
             registers: assignment.registers,
@@ -77,7 +77,11 @@ impl Batch {
     }
 
     /// Results needed for `places` that follow from the first inputs alone: those for the first section to compute.
-    pub fn known(operations: &[Operation], first: usize, places: &[Place]) -> Vec<Place> {
+    pub fn known(
+        operations: &[Operation],
+        first: usize,
+        places: &[OperationIndex],
+    ) -> Vec<OperationIndex> {
         let mut known: Vec<bool> = Vec::with_capacity(operations.len());
         for operation in operations {
             known.push(match *operation {
@@ -86,11 +90,11 @@ impl Batch {
             });
         }
         let needed = needed(operations, &[places.to_vec()]);
-        let needed = |place: &Place| needed[*place as usize].is_some();
-        let all = 0..operations.len() as Place;
+        let needed = |place: &OperationIndex| needed[*place as usize].is_some();
+        let all = 0..operations.len() as OperationIndex;
         let open = all.filter(|place| needed(place) && !known[*place as usize]);
         let used = open.flat_map(|place| operations[place as usize].operands());
-        let mut found: Vec<Place> = used.chain(places.iter().copied()).collect();
+        let mut found: Vec<OperationIndex> = used.chain(places.iter().copied()).collect();
         found.sort_unstable();
         found.dedup();
         found.retain(|&place| {
@@ -119,7 +123,7 @@ impl Batch {
     ///
     /// # Panics
     /// If no section has that place.
-    pub fn result(&self, place: Place) -> usize {
+    pub fn result(&self, place: OperationIndex) -> usize {
         self.results[&place] as usize
     }
 }

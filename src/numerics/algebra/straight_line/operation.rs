@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{OperationKey, Place};
+use super::{OperationIndex, OperationKey};
 use crate::algebra::Function;
 use crate::algebra::evaluation::call;
 use crate::number::Number;
@@ -19,38 +19,38 @@ pub enum Operation {
     /// The input of that number.
     Input(u32),
     /// x + y
-    Add(Place, Place),
+    Add(OperationIndex, OperationIndex),
     /// x − y
-    Subtract(Place, Place),
+    Subtract(OperationIndex, OperationIndex),
     /// x y
-    Multiply(Place, Place),
+    Multiply(OperationIndex, OperationIndex),
     /// x/y
-    Divide(Place, Place),
+    Divide(OperationIndex, OperationIndex),
     /// −x
-    Negate(Place),
+    Negate(OperationIndex),
     /// √x
-    Root(Place),
+    Root(OperationIndex),
     /// sin x
-    Sin(Place),
+    Sin(OperationIndex),
     /// cos x
-    Cos(Place),
+    Cos(OperationIndex),
     /// √x, and 0 where x is negative.
-    RootOrZero(Place),
+    RootOrZero(OperationIndex),
     /// The angle of the vector (x, y), of y and x.
-    Angle(Place, Place),
+    Angle(OperationIndex, OperationIndex),
     /// The angle x, whole turns on, within half a turn of y; the number of turns is even where two are as near.
-    Near(Place, Place),
+    Near(OperationIndex, OperationIndex),
     /// −1 where x is negative, 1 elsewhere.
-    Sign(Place),
+    Sign(OperationIndex),
     /// The larger of x and y.
-    Larger(Place, Place),
+    Larger(OperationIndex, OperationIndex),
     /// A function of x that no operation computes.
-    Call(Function, Place),
+    Call(Function, OperationIndex),
 }
 
 impl Operation {
     /// The places of its operands.
-    pub fn operands(self) -> impl Iterator<Item = Place> {
+    pub fn operands(self) -> impl Iterator<Item = OperationIndex> {
         use Operation::{
             Add, Angle, Call, Constant, Cos, Divide, Input, Larger, Multiply, Near, Negate, Root,
             RootOrZero, Sign, Sin, Subtract,
@@ -72,7 +72,7 @@ impl Operation {
     }
 
     /// The operation with other places of its operands.
-    pub(super) fn placed(self, at: impl Fn(Place) -> Place) -> Self {
+    pub(super) fn placed(self, at: impl Fn(OperationIndex) -> OperationIndex) -> Self {
         use Operation::{
             Add, Angle, Call, Constant, Cos, Divide, Input, Larger, Multiply, Near, Negate, Root,
             RootOrZero, Sign, Sin, Subtract,
@@ -112,7 +112,11 @@ impl Operation {
     }
 
     /// Its value over any number, from those of its operands and of the inputs.
-    pub(super) fn value<T: Number>(self, at: impl Fn(Place) -> T, input: impl Fn(u32) -> T) -> T {
+    pub(super) fn value<T: Number>(
+        self,
+        at: impl Fn(OperationIndex) -> T,
+        input: impl Fn(u32) -> T,
+    ) -> T {
         match self {
             Operation::Constant(x) => T::from_f64(x),
             Operation::Input(i) => input(i),

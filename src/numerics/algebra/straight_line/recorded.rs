@@ -1,6 +1,6 @@
 //! Numbers whose operations are written down.
 
-use super::{Decision, Operation, Place, Recorded, elimination, with};
+use super::{Decision, Operation, OperationIndex, Recorded, elimination, with};
 use crate::algebra::Function;
 use crate::linear::Factorable;
 use crate::number::{Field, Number, functions, operators};
@@ -12,7 +12,7 @@ impl Recorded {
     }
 
     /// Index of the operation.
-    pub fn place(self) -> Place {
+    pub fn place(self) -> OperationIndex {
         self.0
     }
 

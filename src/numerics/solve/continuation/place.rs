@@ -4,7 +4,7 @@ use crate::linear::{BESIDE_A_CROSSING, Decomposition, SINGULAR_PLACE, dot};
 
 /// A regular point of a curve with its tangent.
 #[derive(Clone, Debug)]
-pub struct Place<P> {
+pub struct CurvePoint<P> {
     /// The point.
     pub at: P,
     /// Unit tangent, in the direction the curve is followed.
@@ -13,7 +13,7 @@ pub struct Place<P> {
     pub(in crate::solve) decomposition: Decomposition,
 }
 
-impl<P> Place<P> {
+impl<P> CurvePoint<P> {
     /// The smallest singular value of the Jacobian across the tangent: it vanishes where branches cross. Of a large one
     /// the least pivot, which does too; singular values of long rows of loops are small everywhere.
     pub fn least(&self) -> f64 {
@@ -48,7 +48,7 @@ impl<P> Place<P> {
     /// Drops the Jacobian, most of the storage; [`Continuation::restored`](super::Continuation::restored) computes it
     /// again.
     pub fn thinned(self) -> Self {
-        Place {
+        CurvePoint {
             jacobian: Vec::new(),
             decomposition: Decomposition::of(0, 0, &[]),
             ..self

@@ -1,6 +1,6 @@
 //! Designs drawn: with their targets and the curves of their points, moving, and in the plane of two goals.
 
-use crate::analysis::design::{Design, DesignReport, Goal};
+use crate::analysis::design::{DesignReport, FoundDesign, Goal};
 use crate::ask::DrawnDesign;
 use crate::output::canvas::Canvas;
 use crate::output::drawing::Panel;
@@ -41,7 +41,7 @@ pub fn front(report: &DesignReport) -> Option<Canvas> {
     let (first, second) = (report.goal.as_ref()?, report.second_goal.as_ref()?);
     let axis = |of: &Goal| label(&of.figure, of.unit);
     let good = report.designs.iter().filter(|of| of.defects.is_empty());
-    let at = |of: &Design| {
+    let at = |of: &FoundDesign| {
         Some((
             shown(of.goal?, first.unit),
             shown(of.second_goal?, second.unit),

@@ -1,7 +1,7 @@
 //! Differences between the languages.
 
 use super::Code;
-use crate::algebra::{Function, Operation, Place};
+use crate::algebra::{Function, Operation, OperationIndex};
 
 /// The language of a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,7 +136,7 @@ pub(super) fn larger(size: &str, of: &str) -> String {
 }
 
 /// An operation on named operands.
-pub(super) fn operation(of: Operation, name: &dyn Fn(Place) -> String) -> String {
+pub(super) fn operation(of: Operation, name: &dyn Fn(OperationIndex) -> String) -> String {
     match of {
         Operation::Add(x, y) => format!("{} + {}", name(x), name(y)),
         Operation::Subtract(x, y) => format!("{} - {}", name(x), name(y)),

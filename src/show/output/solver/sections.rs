@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::language::{bound, larger, variable};
 use super::{Code, Language};
-use crate::algebra::{Operation, Place};
+use crate::algebra::{Operation, OperationIndex};
 use crate::analysis::solver::{Component, Solver};
 use text::Text;
 
@@ -48,7 +48,7 @@ impl<'a> OperationWriter<'a> {
         }
     }
 
-    fn name(&self, place: Place, carries: bool) -> String {
+    fn name(&self, place: OperationIndex, carries: bool) -> String {
         let (given, kept) = (self.solver.inputs.len(), self.solver.state.len());
         match self.solver.operations[place as usize] {
             Operation::Constant(x) => self.code.operand(x),
@@ -73,7 +73,7 @@ impl<'a> OperationWriter<'a> {
     }
 
     /// The number of the state at a place.
-    fn state_of(&self, place: Place) -> Option<usize> {
+    fn state_of(&self, place: OperationIndex) -> Option<usize> {
         let (given, kept) = (self.solver.inputs.len(), self.solver.state.len());
         match self.solver.operations[place as usize] {
             Operation::Input(i) => (i as usize).checked_sub(given).filter(|i| *i < kept),
@@ -82,9 +82,9 @@ impl<'a> OperationWriter<'a> {
     }
 
     /// Operations needed for places, in order.
-    fn needed(&self, places: impl IntoIterator<Item = Place>) -> BTreeSet<Place> {
+    fn needed(&self, places: impl IntoIterator<Item = OperationIndex>) -> BTreeSet<OperationIndex> {
         let mut needed = BTreeSet::new();
-        let mut open: Vec<Place> = places.into_iter().collect();
+        let mut open: Vec<OperationIndex> = places.into_iter().collect();
         while let Some(place) = open.pop() {
             if needed.insert(place) {
                 match self.root_under(place) {
@@ -97,7 +97,7 @@ impl<'a> OperationWriter<'a> {
     }
 
     /// For x/√y the places of x and y: it is written with 1/√y.
-    fn root_under(&self, place: Place) -> Option<(Place, Place)> {
+    fn root_under(&self, place: OperationIndex) -> Option<(OperationIndex, OperationIndex)> {
         let operations = &self.solver.operations;
         match operations[place as usize] {
             Operation::Divide(x, root) => match operations[root as usize] {
@@ -109,7 +109,7 @@ impl<'a> OperationWriter<'a> {
     }
 
     /// The numbers of the state whose sines or cosines are used.
-    fn angles(&self, used: &BTreeSet<Place>) -> BTreeSet<usize> {
+    fn angles(&self, used: &BTreeSet<OperationIndex>) -> BTreeSet<usize> {
         let angles =
             used.iter()
                 .filter_map(|&place| match self.solver.operations[place as usize] {
@@ -127,7 +127,7 @@ impl<'a> OperationWriter<'a> {
         let steps = || solver.step.iter().map(|(_, place)| *place);
         let rows = || solver.iterated.iter().map(|(row, _)| *row);
         let used = self.needed(rows().chain(steps()));
-        let follows: BTreeMap<usize, Place> = solver.placed.iter().copied().collect();
+        let follows: BTreeMap<usize, OperationIndex> = solver.placed.iter().copied().collect();
         let free: Vec<usize> = (0..solver.state.len())
             .filter(|i| !follows.contains_key(i))
             .collect();
@@ -233,7 +233,7 @@ impl<'a> OperationWriter<'a> {
         self.rows(&self.solver.residual, &self.solver.jacobian)
     }
 
-    fn rows(&self, rows: &[Place], jacobian: &[Vec<Place>]) -> String {
+    fn rows(&self, rows: &[OperationIndex], jacobian: &[Vec<OperationIndex>]) -> String {
         let used = self.needed(rows.iter().chain(jacobian.iter().flatten()).copied());
         let mut text = self.text(1, false);
         text.numbers(&used, "u");

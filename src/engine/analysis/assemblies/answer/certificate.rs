@@ -12,12 +12,12 @@ use crate::linear::{INDEPENDENT, norm, remove};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Interval, Number};
 use crate::solve::Equations;
-use crate::system::{Held, System, Unknown, Work, enclosed};
+use crate::system::{Held, System, SystemWork, Unknown, enclosed};
 
 /// The interval version of a question.
 pub(crate) struct Certifier {
     system: System<Interval>,
-    work: Work<Interval>,
+    work: SystemWork<Interval>,
     rows: Vec<usize>,
     length: f64,
     scales: Vec<f64>,

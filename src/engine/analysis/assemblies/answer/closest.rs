@@ -1,20 +1,20 @@
 //! The closest approach of a mechanism that cannot be assembled.
 
-use super::Question;
+use super::TargetProblem;
 use super::real::{named_joints, named_poses, tidied};
 use crate::analysis::assemblies::family::C;
-use crate::analysis::assemblies::report::{ClosestApproach, Named};
+use crate::analysis::assemblies::report::{ByName, ClosestApproach};
 use crate::mechanism::Configuration;
 use crate::solve::{Newton, Stop};
-use crate::system::{Gap, Work, approach, solve};
+use crate::system::{Gap, SystemWork, approach, solve};
 
-impl Question<'_> {
+impl TargetProblem<'_> {
     /// The smallest gaps that Newton's method leaves from the target configuration and from the
     /// real parts of complex solutions; true if nothing is left.
     pub(crate) fn nearest(
         &self,
         starts: &[&Vec<C>],
-        work: &mut Work<f64>,
+        work: &mut SystemWork<f64>,
     ) -> Option<(Configuration<f64>, bool)> {
         let newton = Newton::default();
         let mut best: Option<(f64, bool, Configuration<f64>)> = None;
@@ -48,7 +48,7 @@ impl Question<'_> {
             .max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
         let worst = worst.0.clone();
         Some(ClosestApproach {
-            gaps: Named(gaps),
+            gaps: ByName(gaps),
             worst,
             local_minimum,
             squared_lengths: self.mechanism.has_rods(),

@@ -4,25 +4,25 @@ use nalgebra::{ComplexField, DMatrix};
 
 use super::certificate::{Certifier, independent_rows};
 use super::real::{named_joints, named_poses};
-use super::{Found, Question};
+use super::{Found, TargetProblem};
 use crate::analysis::assemblies::family::C;
 use crate::analysis::assemblies::report::{AssembliesReport, Assembly};
 use crate::linear::{ILL_CONDITIONED, rank_of};
 use crate::solve::{Equations, Stage};
-use crate::system::Work;
+use crate::system::SystemWork;
 
 /// Assemblies nearer to each other than this, in rad or characteristic lengths, are hardly
 /// distinguished.
 const BARELY: f64 = 1e-4;
 
-impl Question<'_> {
+impl TargetProblem<'_> {
     /// Numbers, conditions, determinants and certificates.
     pub(crate) fn describe(
         &self,
         report: &mut AssembliesReport,
         found: Vec<Found>,
         certify: bool,
-        work: &mut Work<f64>,
+        work: &mut SystemWork<f64>,
     ) {
         let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
         let jacobians: Vec<Vec<f64>> = (found.iter())

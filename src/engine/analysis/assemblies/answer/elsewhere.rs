@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::super::Wanted;
-use super::{Found, Gathered, Question, Starts};
+use super::{Found, Gathered, Starts, TargetProblem};
 use crate::analysis::assemblies::family::{C, size};
 use crate::analysis::assemblies::report::Fit;
 use crate::analysis::assemblies::search::GenericSolutions;
@@ -22,7 +22,7 @@ const MANY_STARTS: usize = 400;
 const SAMPLES: usize = 6;
 const APART: f64 = 1e-3;
 
-impl Question<'_> {
+impl TargetProblem<'_> {
     /// True if Newton's method may have ended at a point on its way to a known assembly: the closures
     /// hardly differ between the two.
     fn is_at(&self, x: &[C], found: &Found, homotopy: &mut ParameterHomotopy<'_>) -> bool {

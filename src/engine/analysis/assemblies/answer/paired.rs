@@ -1,15 +1,15 @@
 //! Solutions for real inputs that are not real come in conjugate pairs.
 
-use super::{Group, Question};
+use super::{Group, TargetProblem};
 use crate::analysis::assemblies::family::{C, size};
-use crate::system::Work;
+use crate::system::SystemWork;
 
-impl Question<'_> {
+impl TargetProblem<'_> {
     /// Adds the conjugates of solutions that are not real where no path led to them: for real
     /// inputs they are solutions too. How many there were.
     ///
     /// Each solution has one partner, the nearest to its conjugate of those that have none yet.
-    pub(super) fn pair(&self, groups: &mut Vec<Group>, work: &mut Work<f64>) -> usize {
+    pub(super) fn pair(&self, groups: &mut Vec<Group>, work: &mut SystemWork<f64>) -> usize {
         let mut alone: Vec<usize> = (0..groups.len())
             .filter(|&i| {
                 let Group { x, singular, .. } = &groups[i];

@@ -5,9 +5,9 @@ use crate::geometry::RollPitchYaw;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::number::{complex, real};
 use crate::solve::{Equations, Newton, Stop};
-use crate::system::{System, Work};
+use crate::system::{System, SystemWork};
 
-use crate::analysis::assemblies::report::{Named, PoseReport};
+use crate::analysis::assemblies::report::{ByName, PoseReport};
 
 /// Rounding relative to the size of a solution.
 const ROUNDING: f64 = 1e-14;
@@ -23,7 +23,7 @@ pub(crate) fn real_solution(
     singular: bool,
     coordinates: &Coordinates,
     system: &System<f64>,
-    work: &mut Work<f64>,
+    work: &mut SystemWork<f64>,
     asked: &Configuration<f64>,
 ) -> Option<Configuration<f64>> {
     let scale = 1.0 + size(x);
@@ -150,7 +150,7 @@ fn order_from<T>(place: usize, found: &mut [T], key: &impl Fn(&T) -> &[f64]) {
 }
 
 /// Joint values by name, angles by the turn that is within their limits if one is.
-pub(crate) fn named_joints(mechanism: &Mechanism, point: &Configuration<f64>) -> Named<f64> {
+pub(crate) fn named_joints(mechanism: &Mechanism, point: &Configuration<f64>) -> ByName<f64> {
     let mut all = mechanism.all_joints(point);
     for (j, (_, value)) in (0..mechanism.joints().len()).zip(&mut all.0) {
         *value = mechanism.by_limits(j, *value);
@@ -162,7 +162,7 @@ pub(crate) fn named_poses(
     mechanism: &Mechanism,
     point: &Configuration<f64>,
     sure: bool,
-) -> Named<PoseReport> {
+) -> ByName<PoseReport> {
     use std::f64::consts::{PI, TAU};
     let names = mechanism.platforms().iter().map(|p| p.name.clone());
     let poses = point.platforms.iter().map(|pose| {
@@ -178,5 +178,5 @@ pub(crate) fn named_poses(
             roll_pitch_yaw: [once(roll), pitch, once(yaw)],
         }
     });
-    Named(names.zip(poses).collect())
+    ByName(names.zip(poses).collect())
 }

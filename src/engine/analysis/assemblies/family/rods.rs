@@ -30,10 +30,10 @@ pub(crate) enum Rod {
 }
 
 /// The way from ground or a platform to a frame: where it begins, moving rows, a fixed displacement.
-type Way = (Frame, Vec<RowDimensions<C>>, Pose<C>);
+type FramePath = (Frame, Vec<RowDimensions<C>>, Pose<C>);
 
 /// The ways to both frames of every closure.
-fn ways(dimensions: &Dimensions<C>) -> Vec<[Way; 2]> {
+fn ways(dimensions: &Dimensions<C>) -> Vec<[FramePath; 2]> {
     let frames = dimensions.closures.iter().flat_map(|c| c.frames);
     let kinematics = Kinematics::new(dimensions, frames);
     let way = |frame| {
@@ -66,7 +66,7 @@ struct Hinges {
 }
 
 impl Hinges {
-    fn of((_, rows, tip): &Way, joints: &[usize]) -> Option<Self> {
+    fn of((_, rows, tip): &FramePath, joints: &[usize]) -> Option<Self> {
         let zero = C::from_f64(0.0);
         let first = rows
             .iter()
@@ -131,7 +131,7 @@ impl Rod {
                 && (count(&rows[..3]), count(&rows[3..kind.equations()])) == (2, 0)
         };
         let small = SMALL * dimensions.characteristic_length;
-        let free = |way: &Way| -> Vec<usize> {
+        let free = |way: &FramePath| -> Vec<usize> {
             let forms = way
                 .1
                 .iter()
@@ -191,7 +191,7 @@ impl Rod {
             let [(a, i, first), (b, j, second)] = sides.as_slice() else {
                 continue;
             };
-            let fits = |side: usize, pair: &[Way; 2]| {
+            let fits = |side: usize, pair: &[FramePath; 2]| {
                 pair[side].1.is_empty() && !bodies.contains(&pair[1 - side].0)
             };
             if spins && a != b && is_ball(*a) && is_ball(*b) && fits(*i, first) && fits(*j, second)

@@ -14,7 +14,7 @@ use crate::system::{HeldPlatform, System, Unknown, independent_parts};
 
 /// A dimension with a number among the parameters.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Varied {
+pub(super) enum VariedDimension {
     /// The lengths of a displacement, by a factor; `small` is what they are of the characteristic length where they are short.
     Lengths { link: usize, small: f64 },
     /// The angle between z before and after a displacement, to which it is added.
@@ -41,35 +41,35 @@ fn normal(rotation: &Rotation<C>) -> Option<Vector3<C>> {
     (!is_special).then(|| Vector3([-y / sine, x / sine, C::from_f64(0.0)]))
 }
 
-impl Varied {
+impl VariedDimension {
     /// All that may vary: lengths that are zero stay so, and axes that are parallel or perpendicular.
-    fn all(of: &mut Dimensions<C>) -> Vec<Varied> {
+    fn all(of: &mut Dimensions<C>) -> Vec<VariedDimension> {
         let mut all = Vec::new();
         let length = of.characteristic_length;
         for (link, pose) in links(of).enumerate() {
             let small = pose.position.0.into_iter().map(norm).fold(0.0, f64::max) / length;
             if small > SMALL {
-                all.push(Varied::Lengths { link, small });
+                all.push(VariedDimension::Lengths { link, small });
             }
             if normal(&pose.rotation).is_some() {
-                all.push(Varied::Twist { link });
+                all.push(VariedDimension::Twist { link });
             }
         }
         let rods = of.closures.iter().enumerate();
         let rods = rods.filter(|(_, of)| of.length != C::from_f64(0.0));
-        all.extend(rods.map(|(closure, _)| Varied::Rod { closure }));
+        all.extend(rods.map(|(closure, _)| VariedDimension::Rod { closure }));
         all
     }
 
     /// The numbers of the file that it consists of.
     fn value(self, of: &mut Dimensions<C>) -> Vec<C> {
         match self {
-            Varied::Rod { closure } => vec![of.closures[closure].length],
-            Varied::Lengths { link, .. } => {
+            VariedDimension::Rod { closure } => vec![of.closures[closure].length],
+            VariedDimension::Lengths { link, .. } => {
                 let pose = links(of).nth(link);
                 pose.map_or(Vec::new(), |pose| pose.position.0.to_vec())
             }
-            Varied::Twist { link } => {
+            VariedDimension::Twist { link } => {
                 let axes = links(of).nth(link).map(|pose| pose.rotation.0);
                 axes.into_iter().flatten().flat_map(|axis| axis.0).collect()
             }
@@ -78,7 +78,7 @@ impl Varied {
 
     /// The number that leaves it as it is.
     fn neutral(self) -> C {
-        C::from_f64(if matches!(self, Varied::Twist { .. }) {
+        C::from_f64(if matches!(self, VariedDimension::Twist { .. }) {
             0.0
         } else {
             1.0
@@ -88,13 +88,13 @@ impl Varied {
     /// Writes it with its number.
     pub fn vary(self, of: &mut Dimensions<C>, number: C) {
         match self {
-            Varied::Rod { closure } => of.closures[closure].length *= number,
-            Varied::Lengths { link, .. } => {
+            VariedDimension::Rod { closure } => of.closures[closure].length *= number,
+            VariedDimension::Lengths { link, .. } => {
                 let pose = links(of).nth(link);
                 pose.into_iter()
                     .for_each(|pose| pose.position = pose.position.times(number));
             }
-            Varied::Twist { link } => {
+            VariedDimension::Twist { link } => {
                 if let Some(pose) = links(of).nth(link)
                     && let Some(about) = normal(&pose.rotation)
                 {
@@ -109,10 +109,10 @@ impl Varied {
     /// Range by which its number is varied.
     pub fn spread(self, reach: f64) -> f64 {
         match self {
-            Varied::Lengths { small, .. } => 0.4 * reach * (0.5 / small).max(1.0),
-            Varied::Rod { .. } => 0.4 * reach,
+            VariedDimension::Lengths { small, .. } => 0.4 * reach * (0.5 / small).max(1.0),
+            VariedDimension::Rod { .. } => 0.4 * reach,
             // axes that are nearly parallel have solutions far out, which come near where they are not
-            Varied::Twist { .. } => 0.5 * reach.sqrt(),
+            VariedDimension::Twist { .. } => 0.5 * reach.sqrt(),
         }
     }
 }
@@ -190,9 +190,9 @@ impl Family {
         if !is_rigid {
             return;
         }
-        let mut varied = Varied::all(&mut own);
+        let mut varied = VariedDimension::all(&mut own);
         varied.retain(|varied| {
-            let is_own = wide || matches!(varied, Varied::Rod { .. });
+            let is_own = wide || matches!(varied, VariedDimension::Rod { .. });
             let mut changed = own.clone();
             varied.vary(&mut changed, C::new(1.5, 0.5));
             (is_own || varied.value(&mut own) == varied.value(&mut other)) && stays(&changed)

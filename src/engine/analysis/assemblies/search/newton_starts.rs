@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::analysis::assemblies::track::{ParameterHomotopy, START, polish, stands_alone};
 use crate::solve::{Newton, Stop};
-use crate::system::{System, Work};
+use crate::system::{System, SystemWork};
 
 /// End of one seed.
 pub(crate) enum Seed {
@@ -23,7 +23,7 @@ pub(crate) enum Seed {
 /// rounding keeps residuals above its tolerance; there the last digits tell.
 pub(crate) fn reached(
     homotopy: &mut ParameterHomotopy<'_>,
-    some: Option<(&System<C>, &mut Work<C>)>,
+    some: Option<(&System<C>, &mut SystemWork<C>)>,
     x: &[C],
 ) -> Option<Vec<C>> {
     const NEARLY: f64 = 1e-8;

@@ -13,7 +13,7 @@ use crate::analysis::assemblies::family::{
 use crate::mechanism::Dimensions;
 use crate::number::Number;
 use crate::solve::{Equations, Homotopy, Newton, Stop};
-use crate::system::{System, Work};
+use crate::system::{System, SystemWork};
 
 /// The equations of every part that a rod stands for, at one member.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub(crate) struct Lift<'f> {
 #[derive(Clone, Debug)]
 struct LiftPart {
     system: System<C>,
-    work: Work<C>,
+    work: SystemWork<C>,
     /// Of its unknowns among those of the whole.
     places: Vec<usize>,
     ways: usize,

@@ -7,7 +7,7 @@ use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Dual, complex::norm};
 use crate::solve::Equations;
-use crate::system::{ConstantsCourse, System, Work};
+use crate::system::{ConstantsCourse, System, SystemWork};
 
 /// s at both ends of a way.
 pub(crate) const START: C = C::new(0.0, 0.0);
@@ -49,7 +49,7 @@ impl MemberSegment {
 #[derive(Clone, Debug)]
 pub(crate) struct MemberEquations {
     pub system: System<C>,
-    pub work: Work<C>,
+    pub work: SystemWork<C>,
     /// The configuration last evaluated.
     pub at: Configuration<C>,
     /// True if all expressions have values here.

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::pieces::{Fit, PLACES, Samples, lagrange, places, taking};
-use super::{Course, Fitted, about, within};
+use super::pieces::{PLACES, PolynomialFit, Samples, lagrange, places, taking};
+use super::{Course, FitQuality, about, within};
 use crate::analysis::quantities::meter::Meter;
 use crate::analysis::sweep::Row;
 use crate::mechanism::Configuration;
@@ -31,7 +31,7 @@ impl Course<'_> {
         let basis = lagrange(Some(AT));
         for crossing in self.crossings.clone() {
             for before in [true, false] {
-                let mut best: Vec<Option<(Fit, Approach)>> = Vec::new();
+                let mut best: Vec<Option<(PolynomialFit, Approach)>> = Vec::new();
                 best.resize_with(self.names.len(), || None);
                 for length in LENGTHS {
                     let part = self.approach(crossing, before, length);
@@ -44,7 +44,8 @@ impl Course<'_> {
                     };
                     for (name, best) in best.iter_mut().enumerate() {
                         let fit = self.fit(name, &samples, Some(AT), &basis);
-                        let better = |(known, _): &(Fit, _)| fit.may_be_off() < known.may_be_off();
+                        let better =
+                            |(known, _): &(PolynomialFit, _)| fit.may_be_off() < known.may_be_off();
                         let near = fit.near || fit.known && fit.off <= OFF * fit.largest;
                         if near && best.as_ref().is_none_or(better) {
                             *best = Some((fit, part.clone()));
@@ -162,7 +163,7 @@ impl Course<'_> {
     }
 
     /// Takes the polynomial of a name along a part for that on pieces of it: next to the crossing, and where it is better.
-    fn continue_name(&mut self, name: usize, fit: &Fit, part: &Approach) {
+    fn continue_name(&mut self, name: usize, fit: &PolynomialFit, part: &Approach) {
         /// Nearer than this part of it rounding shows.
         const NEXT: f64 = 0.1;
         /// At the crossing, beyond the last of its places, rounding grows 15-fold (the sum of the Lagrange polynomials there)
@@ -182,7 +183,7 @@ impl Course<'_> {
             });
             let beyond = ends[0].min(ends[1]) < -1.0 - 1e-12;
             let next = ends[0].min(ends[1]) > 1.0 - 2.0 * NEXT;
-            let worse = piece.fits[name] == Fitted::Rough || piece.noise[name] > off;
+            let worse = piece.fits[name] == FitQuality::Rough || piece.noise[name] > off;
             if beyond || !next && !worse {
                 continue;
             }
@@ -192,7 +193,7 @@ impl Course<'_> {
                 0.5 * (ends[1] - ends[0]),
             );
             piece.noise[name] = off;
-            piece.fits[name] = Fitted::Continued;
+            piece.fits[name] = FitQuality::Continued;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_8, TAU};
 
-use super::{Course, Fitted, StretchPiece, TERMS, WORK_TERMS, polynomial, within};
+use super::{Course, FitQuality, StretchPiece, TERMS, WORK_TERMS, polynomial, within};
 use crate::analysis::quantities::meter::{Meter, MeterBlock, Name};
 use crate::analysis::sweep::Row;
 use crate::mechanism::{Configuration, Measured};
@@ -65,7 +65,7 @@ impl Course<'_> {
                 let (piece, off) = self.fitted(&of, &samples, &lagrange);
                 match middle {
                     Some(middle)
-                        if piece.fits.contains(&Fitted::Rough)
+                        if piece.fits.contains(&FitQuality::Rough)
                             && of.depth < DEEPEST
                             && left > 0 =>
                     {
@@ -147,7 +147,7 @@ impl Course<'_> {
                 }
                 let [from, to] = [-1.0, 1.0].map(|s| polynomial(&piece.terms[time], s));
                 let long = duration * (to - from).abs();
-                if piece.fits[power] == Fitted::Rough {
+                if piece.fits[power] == FitQuality::Rough {
                     let known = beside * long <= LOST * size || long == 0.0;
                     terms = [if known { 0.0 } else { f64::NAN }; WORK_TERMS];
                 }
@@ -249,10 +249,10 @@ impl Course<'_> {
             // no value anywhere, though the configurations are known
             let nowhere = samples.iter().all(|of| of[name][0].is_nan()) && is_solved;
             let (fitted, terms) = match (fit.near, rounded) {
-                (true, _) => (Fitted::Near, fit.terms),
-                (false, true) => (Fitted::Rounded, fit.terms),
-                _ if nowhere => (Fitted::Near, [f64::NAN; TERMS]),
-                _ => (Fitted::Rough, [f64::NAN; TERMS]),
+                (true, _) => (FitQuality::Near, fit.terms),
+                (false, true) => (FitQuality::Rounded, fit.terms),
+                _ if nowhere => (FitQuality::Near, [f64::NAN; TERMS]),
+                _ => (FitQuality::Rough, [f64::NAN; TERMS]),
             };
             piece.terms.push(terms);
             piece.noise.push(fit.may_be_off());
@@ -268,7 +268,7 @@ impl Course<'_> {
         samples: &Samples,
         without: Option<usize>,
         lagrange: &[[f64; TERMS]; TERMS],
-    ) -> Fit {
+    ) -> PolynomialFit {
         /// Largest distance of a name from its polynomial, relative to its largest value on the piece.
         const OFF: f64 = 1e-11;
         let mut values: [f64; PLACES] = std::array::from_fn(|place| samples[place][name][0]);
@@ -292,7 +292,7 @@ impl Course<'_> {
         let off = COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
         let most = self.most.get(name).copied().unwrap_or(0.0);
         let near = (OFF * largest + 8.0 * noise).max(f64::EPSILON * most);
-        Fit {
+        PolynomialFit {
             near: off.iter().all(|off| *off <= near),
             known: off.iter().all(|off| off.is_finite()),
             off: off.into_iter().fold(0.0, finite),
@@ -304,7 +304,7 @@ impl Course<'_> {
 }
 
 /// A polynomial through samples of a name.
-pub(super) struct Fit {
+pub(super) struct PolynomialFit {
     pub terms: [f64; TERMS],
     /// The largest value among them, and the most by which one may be off.
     pub largest: f64,
@@ -316,7 +316,7 @@ pub(super) struct Fit {
     pub near: bool,
 }
 
-impl Fit {
+impl PolynomialFit {
     /// The most by which a value may be off.
     pub fn may_be_off(&self) -> f64 {
         self.noise + self.off

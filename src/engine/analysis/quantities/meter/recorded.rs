@@ -5,7 +5,7 @@ use super::block::{MeterBlock, MeterColumn};
 use super::probe::Probe;
 use super::programs::{estimated, is_clear, is_name};
 use super::values::KnownHere;
-use crate::algebra::{BATCH, Decision, Place, Recorded, Registers, record};
+use crate::algebra::{BATCH, Decision, OperationIndex, Recorded, Registers, record};
 use crate::mechanism::Configuration;
 use crate::number::{Number, widest};
 use crate::system::{LaneProgram, Mask, bits};
@@ -102,7 +102,10 @@ impl Meter<'_> {
     }
 
     /// Writes everything, section by section.
-    fn written(&self, at: &Configuration<f64>) -> Option<([Vec<Place>; 3], Vec<Decision>)> {
+    fn written(
+        &self,
+        at: &Configuration<f64>,
+    ) -> Option<([Vec<OperationIndex>; 3], Vec<Decision>)> {
         let mut all = (0..).map(Recorded::input);
         let mut next = || all.next().expect("there is no last one");
         let at = at.map(|_| next());

@@ -1,6 +1,6 @@
 //! The program of a follower.
 
-use crate::algebra::{Decision, LEAST_PIVOT, Place, Recorded, eliminate};
+use crate::algebra::{Decision, LEAST_PIVOT, OperationIndex, Recorded, eliminate};
 use crate::analysis::solver::iteration::{Iteration, places};
 use crate::analysis::solver::{NoSolver, VariablePlan};
 use crate::linear::DENSE_LIMIT;
@@ -10,7 +10,7 @@ use crate::system::{Coordinate, System};
 /// The places of the program's results.
 pub(super) struct WrittenIteration {
     /// Section by section.
-    pub sections: [Vec<Place>; 6],
+    pub sections: [Vec<OperationIndex>; 6],
     /// The numbers of the state that follow from the others, in their order.
     pub placed: Vec<usize>,
     pub unknowns: usize,

@@ -4,7 +4,7 @@ use super::tracing::SAME;
 use crate::linear::norm;
 use crate::mechanism::Configuration;
 use crate::number::C;
-use crate::solve::{Continuation, Place, Watch};
+use crate::solve::{Continuation, CurvePoint, Watch};
 use crate::system::{ComplexCurve, Curve};
 
 /// The end of a path of complex configurations.
@@ -16,7 +16,7 @@ pub(super) enum PairEnd {
     /// At infinity, where the joint has this value.
     Pole(f64),
     /// At a crossing of paths, with the places from which all others go on.
-    Crossing(Vec<Place<Configuration<C>>>),
+    Crossing(Vec<CurvePoint<Configuration<C>>>),
     /// The place at which no step leads on.
     Lost(Configuration<C>),
     /// After so many steps that it was not followed further.
@@ -55,7 +55,7 @@ impl PairPaths<'_> {
         fold: &Configuration<C>,
         tangent: &[f64],
         up: bool,
-    ) -> Option<Place<Configuration<C>>> {
+    ) -> Option<CurvePoint<Configuration<C>>> {
         let direction = self.complex.off_real(tangent);
         let (place, _) = self.method.leave(&mut self.complex, fold, &direction)?;
         let beyond = (self.complex.value(&place.at) > self.complex.value(fold)) == up;
@@ -66,7 +66,7 @@ impl PairPaths<'_> {
     pub fn follow(
         &mut self,
         real: &mut Curve,
-        mut place: Place<Configuration<C>>,
+        mut place: CurvePoint<Configuration<C>>,
         (up, joint): (bool, usize),
     ) -> PairEnd {
         /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
@@ -135,7 +135,7 @@ impl PairPaths<'_> {
     fn beyond(
         &mut self,
         real: &mut Curve,
-        place: &Place<Configuration<C>>,
+        place: &CurvePoint<Configuration<C>>,
         up: bool,
     ) -> Option<PairEnd> {
         let (method, complex) = (&self.method, &mut self.complex);

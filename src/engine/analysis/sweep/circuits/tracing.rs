@@ -7,7 +7,7 @@ use super::super::begin::forwards;
 use super::CircuitsSettings;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
+use crate::solve::{BranchPoint, Continuation, CurvePoint, Stage, Watch};
 use crate::system::{Curve, Event, Held, NoStart, Still, Walk, sets_of_angles};
 
 /// Configurations nearer than this, in rad and characteristic lengths, are one.
@@ -211,14 +211,14 @@ impl<'a> Tracing<'a> {
         let back = start.clone().reversed();
         let (mut found, end) = self.half(back);
         if !found.closed {
-            let begin = end.map_or(start, Place::reversed);
+            let begin = end.map_or(start, CurvePoint::reversed);
             return self.half(begin).0;
         }
         // now in the sense it was to have
         found.turnings.reverse();
         found.crossings.reverse();
         let places = found.places.into_iter().rev();
-        found.places = places.map(Place::reversed).collect();
+        found.places = places.map(CurvePoint::reversed).collect();
         found
     }
 

@@ -5,7 +5,7 @@ use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::dot;
 use crate::mechanism::Configuration;
 use crate::number::sorting::sort_by;
-use crate::solve::Place;
+use crate::solve::CurvePoint;
 use crate::system::{ConfigurationCurve, Curve, Held, Locked, LocusEnd, Region, Traced, met_at};
 
 /// A curve with the places along it where modes meet it.
@@ -33,7 +33,7 @@ impl BoundaryTracer<'_> {
         curve: &mut C,
         region: &Region,
         crossings: &[&EdgeCrossing],
-        place: impl Fn(&mut C, &Configuration<f64>) -> Option<Place<C::Point>>,
+        place: impl Fn(&mut C, &Configuration<f64>) -> Option<CurvePoint<C::Point>>,
     ) -> Vec<BoundaryCurve> {
         let mut known: Vec<KnownCurve<C::Point>> = Vec::new();
         let scale = [0, 1].map(|i| {
@@ -84,7 +84,8 @@ impl BoundaryTracer<'_> {
                     let mut traced = region.traced(curve, place.clone());
                     let along = met_at(curve, &traced, &place, region.method).unwrap_or(0.0);
                     if traced.places.len() > 1 {
-                        traced.places = traced.places.into_iter().map(Place::thinned).collect();
+                        traced.places =
+                            traced.places.into_iter().map(CurvePoint::thinned).collect();
                         let places = traced.places.iter();
                         let at: Vec<_> = places.map(|p| C::configuration(&p.at)).collect();
                         known.push(KnownCurve {
@@ -100,7 +101,7 @@ impl BoundaryTracer<'_> {
             }
         }
         let curves = known.into_iter().map(|known| {
-            let at = |p: &Place<C::Point>| C::configuration(&p.at).clone();
+            let at = |p: &CurvePoint<C::Point>| C::configuration(&p.at).clone();
             let path: Vec<Configuration<f64>> = known.traced.places.iter().map(at).collect();
             self.curve(path, known.points, known.traced.ends, known.met)
         });

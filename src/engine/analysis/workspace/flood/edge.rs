@@ -4,7 +4,7 @@ use super::neighbour::Flood;
 use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::Decomposition;
 use crate::mechanism::Configuration;
-use crate::solve::{Continuation, Place};
+use crate::solve::{Continuation, CurvePoint};
 use crate::system::{Coordinate, Curve, Driven, Event, Lock, Locked, Monitor, Walk};
 
 /// First event on an edge.
@@ -79,7 +79,7 @@ impl Flood<'_> {
             Until::Singular(locks) => {
                 let mut locked = Locked::without_spins(mechanism, &problem.question.held(), locks);
                 let near: Decomposition = locked.decomposition(&place.at);
-                let sign = move |_: &mut Curve, place: &Place<Configuration<f64>>| {
+                let sign = move |_: &mut Curve, place: &CurvePoint<Configuration<f64>>| {
                     locked.orientation(&near, &place.at)
                 };
                 vec![Box::new(sign)]

@@ -10,7 +10,7 @@ use crate::linear::norm;
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::tolerance::{ROUNDING, SOLVED};
 use crate::solve::{Equations, Newton, Stop};
-use crate::system::{System, Work};
+use crate::system::{System, SystemWork};
 use side_by_side::SideBySide;
 
 /// Start of a step.
@@ -30,7 +30,7 @@ pub(crate) struct StepStart<'a> {
 pub(crate) struct Steps {
     targets: Targets,
     system: System<f64>,
-    work: Work<f64>,
+    work: SystemWork<f64>,
     point: Configuration<f64>,
     spare: Configuration<f64>,
     /// Tangent of a step to its predicted end.

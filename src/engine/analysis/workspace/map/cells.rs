@@ -28,7 +28,7 @@ pub struct AxisReport {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(inline, with = "WrittenCells"))]
 pub struct Cells {
-    /// Names and units of its columns, as in [`Cell::values`].
+    /// Names and units of its columns, as in [`MapNode::values`].
     pub columns: Vec<Variable>,
     /// Mapped coordinates, joints and coordinates that follow in a row.
     pub(crate) widths: [usize; 3],
@@ -58,7 +58,7 @@ pub(crate) const INDICATORS: usize = 5;
 
 /// A node in a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cell<'a> {
+pub struct MapNode<'a> {
     /// The number of the node, the first coordinate running fastest.
     pub node: usize,
     /// The mapped coordinates, rad or m.
@@ -82,7 +82,7 @@ pub struct Cell<'a> {
     row: &'a [f64],
 }
 
-impl Cell<'_> {
+impl MapNode<'_> {
     /// The values in the columns of its table: mapped coordinates, then mode, aspect, condition, the
     /// determinants of direct and inverse singularities, joints, coordinates that follow.
     pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
@@ -109,11 +109,11 @@ impl Serialize for Cells {
 impl<'de> Deserialize<'de> for Cells {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
-        struct Table {
+        struct CellRows {
             columns: Vec<Variable>,
             values: Vec<Vec<Option<f64>>>,
         }
-        let Table { columns, values } = Table::deserialize(deserializer)?;
+        let CellRows { columns, values } = CellRows::deserialize(deserializer)?;
         if values.iter().any(|row| row.len() != columns.len()) {
             return Err(D::Error::custom("a row has too few or too many values"));
         }
@@ -165,7 +165,7 @@ impl Cells {
     }
 
     /// All of them.
-    pub fn iter(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
+    pub fn iter(&self) -> impl Iterator<Item = MapNode<'_>> + Clone {
         let [axes, joints, _] = self.widths;
         let width = self.columns.len().max(1);
         let rows = (self.parts.iter())
@@ -174,7 +174,7 @@ impl Cells {
             let (at, rest) = row.split_at(axes);
             let (indicators, rest) = rest.split_at(INDICATORS);
             let (joints, following) = rest.split_at(joints);
-            Cell {
+            MapNode {
                 node,
                 at,
                 mode: indicators[0] as usize,

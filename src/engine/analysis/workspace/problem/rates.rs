@@ -6,7 +6,7 @@ use super::condition::condition;
 use super::map_problem::MapProblem;
 use crate::linear::{Factorable, dot};
 use crate::mechanism::{Configuration, Role};
-use crate::system::{Coordinate, Driving, Held, System, Unknown, Work};
+use crate::system::{Coordinate, Driving, Held, System, SystemWork, Unknown};
 
 /// The motions for unit rates of the held coordinates one by one, the columns of N, dimensionless:
 /// J N = 0 for the closures linearised with nothing held, and H N = 1 for the rates of the held coordinates.
@@ -105,7 +105,7 @@ impl Rates {
         &self,
         at: &Configuration<T>,
         system: &System<T>,
-        work: &mut Work<T>,
+        work: &mut SystemWork<T>,
         found: &mut HeldMotions<T>,
     ) {
         let (n, unknowns) = (self.held.len(), self.unknowns());

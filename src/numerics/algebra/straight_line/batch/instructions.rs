@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::algebra::Function;
-use crate::algebra::straight_line::{Operation, Place};
+use crate::algebra::straight_line::{Operation, OperationIndex};
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instruction {
@@ -51,7 +51,10 @@ pub(super) enum Opcode {
 }
 
 /// For each place the section that computes it: the one that needs it, or the first or second if that or several do.
-pub(super) fn needed(operations: &[Operation], sections: &[Vec<Place>]) -> Vec<Option<usize>> {
+pub(super) fn needed(
+    operations: &[Operation],
+    sections: &[Vec<OperationIndex>],
+) -> Vec<Option<usize>> {
     let mut users = vec![0u32; operations.len()];
     for (section, places) in sections.iter().enumerate() {
         (places.iter()).for_each(|&place| users[place as usize] |= 1 << section);
@@ -69,24 +72,24 @@ pub(super) fn needed(operations: &[Operation], sections: &[Vec<Place>]) -> Vec<O
     users.into_iter().map(section).collect()
 }
 
-pub(super) type Written = (Vec<Vec<Instruction>>, Vec<(u32, f64)>, usize);
+pub(super) type Instructions = (Vec<Vec<Instruction>>, Vec<(u32, f64)>, usize);
 
 /// The instructions of each section, over places in place of registers, the constants, and how many places there are.
 pub(super) fn written(
     operations: &[Operation],
     sections: usize,
     needed: &[Option<usize>],
-    kept: &[Place],
-) -> Written {
+    kept: &[OperationIndex],
+) -> Instructions {
     use Operation as O;
     let fused = fused(operations, needed, kept);
-    let product = |place: Place| match operations[place as usize] {
+    let product = |place: OperationIndex| match operations[place as usize] {
         O::Multiply(x, y) if fused[place as usize] => Some((x, y)),
         _ => None,
     };
     let mut written = vec![Vec::new(); sections];
     let mut constants = Vec::new();
-    let mut angles: FxHashMap<(usize, Place), usize> = FxHashMap::default();
+    let mut angles: FxHashMap<(usize, OperationIndex), usize> = FxHashMap::default();
     let mut places = operations.len();
     for (place, operation) in operations.iter().enumerate() {
         let Some(section) = needed[place] else {
@@ -143,7 +146,7 @@ pub(super) fn written(
 }
 
 /// The products that are used once only, by a sum or difference of their own section, and are computed with it.
-fn fused(operations: &[Operation], needed: &[Option<usize>], kept: &[Place]) -> Vec<bool> {
+fn fused(operations: &[Operation], needed: &[Option<usize>], kept: &[OperationIndex]) -> Vec<bool> {
     let mut users: Vec<Option<usize>> = vec![None; operations.len()];
     let mut fused = vec![false; operations.len()];
     let mut used_again = vec![false; operations.len()];
@@ -177,7 +180,7 @@ fn fused(operations: &[Operation], needed: &[Option<usize>], kept: &[Place]) -> 
 pub(super) fn last_uses(
     written: &[Vec<Instruction>],
     needed: &[Option<usize>],
-    kept: &[Place],
+    kept: &[OperationIndex],
     places: usize,
 ) -> Vec<usize> {
     let mut last = vec![0; places];
@@ -259,14 +262,14 @@ impl Instruction {
 }
 
 /// Instructions of which one is used by another of the section alone are made one.
-fn merged(sections: &mut [Vec<Instruction>], kept: &[Place], places: usize) {
+fn merged(sections: &mut [Vec<Instruction>], kept: &[OperationIndex], places: usize) {
     let mut uses = vec![0; places];
     kept.iter().for_each(|&place| uses[place as usize] += 1);
     for instruction in sections.iter().flatten() {
         (instruction.operands().into_iter()).for_each(|place| uses[place as usize] += 1);
     }
     for section in sections {
-        let mut written: FxHashMap<Place, usize> = FxHashMap::default();
+        let mut written: FxHashMap<OperationIndex, usize> = FxHashMap::default();
         let mut gone = vec![false; section.len()];
         for number in 0..section.len() {
             let instruction = section[number];

@@ -1,7 +1,7 @@
 //! The state in closed form.
 
 use super::OperationWriter;
-use crate::algebra::Place;
+use crate::algebra::OperationIndex;
 
 impl OperationWriter<'_> {
     /// The state in closed form; nothing if it has none.
@@ -44,7 +44,7 @@ impl OperationWriter<'_> {
     }
 
     /// The number of a sign at a place.
-    pub(super) fn sign_of(&self, place: Place) -> Option<usize> {
+    pub(super) fn sign_of(&self, place: OperationIndex) -> Option<usize> {
         let closed = self.solver.closed.as_ref()?;
         closed.signs.iter().position(|sign| *sign == place)
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::OperationWriter;
-use crate::algebra::{Operation, Place};
+use crate::algebra::{Operation, OperationIndex};
 use crate::output::solver::language::{bound, operation};
 
 /// The text of one function, with what is already written in it.
@@ -11,7 +11,7 @@ pub(super) struct Text<'w, 'a> {
     pub(super) writer: &'w OperationWriter<'a>,
     pub(super) text: String,
     pub(super) indent: usize,
-    pub(super) known: BTreeSet<Place>,
+    pub(super) known: BTreeSet<OperationIndex>,
     /// True if sines and cosines of the state have names of their own.
     pub(super) carries: bool,
 }
@@ -26,7 +26,7 @@ impl Text<'_, '_> {
     }
 
     /// The numbers of an array that are used, each under the name of the array and its place.
-    pub(super) fn numbers(&mut self, used: &BTreeSet<Place>, array: &str) {
+    pub(super) fn numbers(&mut self, used: &BTreeSet<OperationIndex>, array: &str) {
         for &place in used {
             if let Operation::Input(_) = self.writer.solver.operations[place as usize] {
                 let name = self.writer.name(place, false);
@@ -41,7 +41,7 @@ impl Text<'_, '_> {
     }
 
     /// Gives up where a pivot that is used is too small.
-    pub(super) fn pivots(&mut self, used: &BTreeSet<Place>) {
+    pub(super) fn pivots(&mut self, used: &BTreeSet<OperationIndex>) {
         let OperationWriter { code, solver, .. } = self.writer;
         let pivots = solver.pivots.iter();
         for pivot in pivots.filter(|pivot| used.contains(&pivot.inverse)) {
@@ -54,15 +54,15 @@ impl Text<'_, '_> {
     }
 
     /// Operations that are not written yet.
-    pub(super) fn operations(&mut self, places: impl IntoIterator<Item = Place>) {
-        let places: BTreeSet<Place> = places.into_iter().collect();
+    pub(super) fn operations(&mut self, places: impl IntoIterator<Item = OperationIndex>) {
+        let places: BTreeSet<OperationIndex> = places.into_iter().collect();
         for &place in &places {
             if !self.known.insert(place) {
                 continue;
             }
             let writer = self.writer;
             let carries = self.carries;
-            let name = |place: Place| writer.name(place, carries);
+            let name = |place: OperationIndex| writer.name(place, carries);
             match writer.solver.operations[place as usize] {
                 Operation::Constant(_) | Operation::Input(_) => {}
                 Operation::Sin(angle) | Operation::Cos(angle) => {
@@ -93,11 +93,11 @@ impl Text<'_, '_> {
     }
 
     /// Sine and cosine of an angle, of which both are written where either is used.
-    fn turned(&mut self, place: Place, angle: Place) {
+    fn turned(&mut self, place: OperationIndex, angle: OperationIndex) {
         let writer = self.writer;
         let all = writer.solver.operations.iter().enumerate();
         let partner = |wanted: Operation| all.clone().find(|(_, of)| **of == wanted);
-        let place_of = |wanted| partner(wanted).map(|(place, _)| place as Place);
+        let place_of = |wanted| partner(wanted).map(|(place, _)| place as OperationIndex);
         let sin = place_of(Operation::Sin(angle)).unwrap_or(place);
         let cos = place_of(Operation::Cos(angle)).unwrap_or(place);
         self.known.extend([sin, cos]);

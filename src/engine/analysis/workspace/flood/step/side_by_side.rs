@@ -1,7 +1,7 @@
 //! Many steps side by side, by operations recorded once.
 
 use super::LongestCorrection;
-use crate::algebra::{BATCH, Decision, Place, Recorded, Registers, record};
+use crate::algebra::{BATCH, Decision, OperationIndex, Recorded, Registers, record};
 use crate::analysis::workspace::problem::{HeldMotions, MapProblem, Rates, Targets};
 use crate::mechanism::Configuration;
 use crate::number::Number;
@@ -158,7 +158,7 @@ fn written(
     system: &System<Recorded>,
     rates: &Rates,
     at: &Configuration<Recorded>,
-) -> Option<([Vec<Place>; 5], Vec<Decision>)> {
+) -> Option<([Vec<OperationIndex>; 5], Vec<Decision>)> {
     let mut work = system.work();
     system.linearise(at, &mut work);
     let rows = system.residual_of(&work).to_vec();
