@@ -158,6 +158,62 @@ fn rows_are_moved_as_they_are_written_and_come_back() {
     }
 }
 
+/// Rows with β in both conventions and as joint coordinates put every body in the same place; a cut in front of such a row
+/// has no way back.
+#[test]
+fn rows_of_nearly_parallel_axes_are_moved_with_their_tilt() {
+    let text = r#"Mechanism(version: 1, name: "tilted", convention: Modified,
+        parameters: { "tilt": "2 deg" },
+        joints: { "a": Actuated(home: 0.3), "b": Passive(home: 0.4), "c": Passive(home: 0.2) },
+        chains: { "arm": Chain(rows: [
+            (theta: "a"), (alpha: "3 deg", a: 0.5, beta: "tilt", theta: "b"), (a: 0.4, beta: "1 deg", theta: "c")],
+            tip: [Tx(0.3)]) },
+        closures: { "ball": Spherical("arm", "ground") })"#;
+    let description = Description::read(text).unwrap();
+    let mechanism = Mechanism::new(&description).unwrap();
+    let at = mechanism.home();
+    let tip = |mechanism: &Mechanism| {
+        let tip = mechanism.frame("arm").unwrap();
+        mechanism.poses([tip, tip], &mechanism.home())[0]
+    };
+    // by matrices
+    let rz = |angle: f64| Pose::rotation(Axis::Z, angle);
+    let link = |alpha: f64, a: f64, beta: f64| {
+        Pose::rotation(Axis::X, alpha.to_radians())
+            * Pose::translation(linkwork::geometry::Vector3([a, 0.0, 0.0]))
+            * Pose::rotation(Axis::Y, beta.to_radians())
+    };
+    let expected = rz(at.joints[0])
+        * link(3.0, 0.5, 2.0)
+        * rz(at.joints[1])
+        * link(0.0, 0.4, 1.0)
+        * rz(at.joints[2])
+        * link(0.0, 0.3, 0.0);
+    assert_same(&tip(&mechanism), &expected, 1e-14, "tables");
+    let standard = in_convention(&mechanism, &description, Convention::Standard);
+    let rows = &standard.description.chains[0].value.rows;
+    assert_eq!(rows[0].beta.expression.to_string(), "tilt");
+    let made = Mechanism::new(&standard.description).unwrap();
+    assert_same(&tip(&made), &expected, 1e-14, "standard");
+    let back = in_convention(&made, &standard.description, Convention::Modified);
+    assert_eq!(
+        back.description.chains[0].value.rows[1].beta,
+        description.chains[0].value.rows[1].beta
+    );
+    let (axes, _) = to_axes(&mechanism, &description).unwrap();
+    let drawn = Mechanism::new(&axes.tables().unwrap()).unwrap();
+    assert_same(&tip(&drawn), &expected, 1e-14, "coordinates");
+    let settings = ConvertSettings {
+        cut: Some("b".into()),
+        ..ConvertSettings::default()
+    };
+    let refused = convert(&mechanism, &description, &settings).unwrap_err();
+    assert!(
+        refused.to_string().contains("a row behind `b` has `beta`"),
+        "{refused}"
+    );
+}
+
 #[test]
 fn closed_forms_agree_in_the_other_convention() {
     for path in files() {

@@ -15,10 +15,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::description::{
     AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace, Convention, Description,
-    Displacement, Graph, Named, Problem, ProblemKind, axes_text, mechanism_text, place_of,
+    Displacement, Graph, Named, Problem, ProblemKind, axes_text, mechanism_text,
 };
-use crate::geometry::{Line, Pose, Relation, Vector3};
-use crate::mechanism::{FrameAssignment, Mechanism, Normal, SerialAxes, TableRow};
+use crate::geometry::{Line, Pose, Relation};
+use crate::mechanism::{FrameAssignment, Mechanism, Normal, TableRow};
 
 use build::Build;
 pub use given::{AxesError, joint_axes};
@@ -216,55 +216,6 @@ impl PlacedChain {
     }
 }
 
-/// Offset, relative to the size of the mechanism, that is worth a warning.
-const FAR: f64 = 1e3;
-
-/// Nearly parallel axes whose common normal is far off.
-fn far_normals(
-    axes: &AxesDescription,
-    values: &values::Values,
-    placed: &[PlacedChain],
-) -> Vec<Problem> {
-    let joints = 0..axes.joints.len();
-    let all = SerialAxes {
-        base: values.base,
-        joints: joints
-            .map(|k| chains::joint_axis(axes, values, k, true))
-            .collect(),
-        tool: values.tool,
-    };
-    let size = all.length();
-    let mut found = Vec::new();
-    for chain in placed {
-        for (k, pair) in chain.rows.windows(2).enumerate() {
-            let normal = &chain.normals[k + 1];
-            let from = Vector3(normal.from);
-            let first = place_of(&axes.joints, &chain.joints[k]);
-            // at the ends of a chain the offset stands in base or tip
-            let away = first.filter(|&j| axes.joints[j].value.kind == AxisKind::Revolute);
-            let away = away.map_or(0.0, |j| (from - values.lines[j].point).norm());
-            let offset = pair[0].d.abs().max(pair[1].d.abs()).max(away);
-            let parallel = normal.relation.is_none_or(Relation::is_parallel);
-            let angle = normal.angle.min(std::f64::consts::PI - normal.angle);
-            // an offset that large at axes not nearly parallel is intended
-            if parallel || angle * FAR > 1.0 || offset <= FAR * size {
-                continue;
-            }
-            let joints = [k, k + 1].map(|k| chain.joints[k].clone());
-            let second = place_of(&axes.joints, &joints[1]);
-            let span = second.map_or(0..0, |joint| axes.joints[joint].name.span.clone());
-            let far = AxesProblem::FarNormal {
-                joints,
-                angle,
-                offset,
-                size,
-            };
-            found.push(far.at(&span));
-        }
-    }
-    found
-}
-
 /// Places frames on joint axes and reads the tables off them.
 ///
 /// # Errors
@@ -325,7 +276,6 @@ pub fn frames(
         let span = span.map_or(axes.name.span.clone(), |(start, end)| start..end);
         warnings.push(AxesProblem::BaseUnused { convention }.at(&span));
     }
-    warnings.extend(far_normals(axes, &values, &report.chains));
     report.warnings = warnings;
     Ok(report)
 }

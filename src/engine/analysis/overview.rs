@@ -128,7 +128,7 @@ fn chain(mechanism: &Mechanism, chain: &Chain) -> ChainOverview {
 }
 
 fn row(mechanism: &Mechanism, row: &ChainRow) -> RowOverview {
-    let [alpha, a, d, theta] = row.written.clone();
+    let [alpha, a, d, theta, beta] = row.written.clone();
     let fixed = |written: String, formula: &Formula| EntryOverview {
         written,
         value: value(mechanism, formula),
@@ -147,6 +147,7 @@ fn row(mechanism: &Mechanism, row: &ChainRow) -> RowOverview {
         a: fixed(a, &row.a),
         d: affine(d, &row.d),
         theta: affine(theta, &row.theta),
+        beta: (!row.beta.is_zero()).then(|| fixed(beta, &row.beta)),
     }
 }
 

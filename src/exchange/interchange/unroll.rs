@@ -3,8 +3,8 @@
 //! Bodies that move one after the other without a branch become one chain; its table is placed on the joint axes by
 //! [`SerialAxes`], at the reference values of the joints. At a branch a new chain is attached to a link of the previous chain.
 //! Bodies with a ball or free joint become platforms, a ball joint a spherical closure. Bodies that do not move
-//! against their parent are parts of it. Where axes are parallel but for the digits of a file a new chain begins too. A
-//! requested frame becomes the tip of its chain, or, if the chain has one already, a chain without rows.
+//! against their parent are parts of it. A requested frame becomes the tip of its chain, or, if the chain has one already, a
+//! chain without rows.
 
 mod closures;
 mod joints;
@@ -19,13 +19,13 @@ use relations::{FollowingJoint, followers, within_reason};
 use super::names::ImportedNames;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, BodyMotion, Tree, TreeJoint};
+use super::tree::{Attachment, BodyMotion, Tree};
 use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
     Named, PlatformDescription, RowDescription, Spanned,
 };
-use crate::geometry::{Line, Pose, Vector3};
+use crate::geometry::{Line, Pose};
 use crate::mechanism::{DhTable, JointAxis, SerialAxes};
 
 /// A description with remarks.
@@ -242,44 +242,8 @@ impl Unroller<'_> {
             while let [next] = below[links[links.len() - 1]][..] {
                 links.push(next);
             }
-            let places = links.iter().flat_map(|&link| {
-                let joints = tree.bodies[link].joints.iter();
-                joints.map(move |joint| (link, joint.point))
-            });
-            let places = places.map(|(link, point)| self.zero[link] * point);
-            let places: Vec<Vector3<f64>> = places.collect();
-            let apart = places.iter().map(|place| (*place - places[0]).norm());
-            let size = apart.fold(0.0, f64::max);
-            let parts = links.chunk_by(|&a, &b| !self.far_normal(a, b, size));
-            let mut on = parent;
-            for part in parts.collect::<Vec<_>>() {
-                self.chain(on, part);
-                on = part[part.len() - 1];
-            }
+            self.chain(parent, &links);
         }
-    }
-
-    /// True if the common normal of the last axis of a link and the first of the next is far away beside the size of the
-    /// chain in m, as the axes are parallel but for the digits of a file. A table along it would have offsets that the
-    /// mechanism does not have.
-    fn far_normal(&self, link: usize, next: usize, size: f64) -> bool {
-        /// The largest angle between such axes, in rad.
-        const NEARLY_PARALLEL: f64 = 1e-2;
-        /// Far is so many times the size.
-        const FAR: f64 = 10.0;
-        let axis = |link: usize, joint: Option<&TreeJoint>| {
-            let (joint, pose) = (joint?, self.zero[link]);
-            Line::new(pose * joint.point, pose.rotation * joint.axis)
-        };
-        let [before, after] = [link, next].map(|link| &self.tree.bodies[link].joints);
-        let (Some(axis), Some(next)) = (axis(link, before.last()), axis(next, after.first()))
-        else {
-            return false;
-        };
-        let normal = axis.common_normal(&next, size);
-        let angle = normal.angle.min(std::f64::consts::PI - normal.angle);
-        let away = (normal.feet[0] - axis.point).norm();
-        !normal.relation.is_parallel() && angle <= NEARLY_PARALLEL && away > FAR * size
     }
 
     /// A name for the end of a chain, and the pose of that frame in the last link.
@@ -364,7 +328,10 @@ impl Unroller<'_> {
             };
             let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
             let d = entry(Entry::length, row.d, row.slide);
-            RowDescription::new(alpha, a, d, entry(Entry::angle, row.theta, row.turn))
+            RowDescription {
+                beta: Entry::angle(row.beta),
+                ..RowDescription::new(alpha, a, d, entry(Entry::angle, row.theta, row.turn))
+            }
         });
         rows.collect()
     }

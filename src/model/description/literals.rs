@@ -243,6 +243,7 @@ impl Description {
                 visit(&mut row.a, Measure::Length, &place, false);
                 visit(&mut row.d, Measure::Length, &place, false);
                 visit(&mut row.theta, Measure::Angle, &place, false);
+                visit(&mut row.beta, Measure::Angle, &place, false);
             }
             of_steps(&mut value.tip, &name.value, visit);
         }

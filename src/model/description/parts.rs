@@ -178,6 +178,7 @@ impl RowDescription {
             a,
             d,
             theta,
+            beta: Entry::absent(),
             link: None,
             span,
         }

@@ -21,11 +21,12 @@ pub fn negated(e: &Entry) -> Entry {
     })
 }
 
-/// Tx(a)·Rx(α), without zeros.
-pub fn link(alpha: &Entry, a: &Entry) -> Vec<Displacement> {
+/// Tx(a)·Rx(α)·Ry(β), without zeros.
+pub fn link([a, alpha, beta]: [&Entry; 3]) -> Vec<Displacement> {
     let along = Displacement::Translate(Axis::X, a.clone());
-    let about = Displacement::Rotate(Axis::X, alpha.clone());
-    doing_something([along, about])
+    let [twist, tilt] = [(Axis::X, alpha), (Axis::Y, beta)];
+    let about = [twist, tilt].map(|(axis, angle)| Displacement::Rotate(axis, angle.clone()));
+    doing_something([along].into_iter().chain(about))
 }
 
 /// The steps that move something.

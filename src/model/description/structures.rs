@@ -109,6 +109,8 @@ macro_rules! part_structures {
                 d: Entry = "d" as Expected::ENTRY,
                 /// Angle about the joint axis (rad).
                 theta: Entry = "theta" as Expected::ENTRY,
+                /// Turn about y behind the twist (rad), where consecutive axes are nearly parallel (Hayati).
+                beta: Entry = "beta" as Expected::ENTRY,
                 /// A name for the link behind the row, which is its body.
                 link: Option<Spanned<String>> = "link" as Expected::NameOf(Noun::Body),
                 /// The place of the row.

@@ -315,13 +315,15 @@ impl ModelBuilder<'_> {
                 let a = self.measured(&row.a, Measure::Length);
                 let d = self.affine(&row.d, Measure::Length);
                 let theta = self.affine(&row.theta, Measure::Angle);
-                let entries = [&row.alpha, &row.a, &row.d, &row.theta];
+                let beta = self.measured(&row.beta, Measure::Angle);
+                let entries = [&row.alpha, &row.a, &row.d, &row.theta, &row.beta];
                 let whole = || {
                     Some(ChainRow {
                         alpha: alpha?.0,
                         a: a?.0,
                         d: d?,
                         theta: theta?,
+                        beta: beta?.0,
                         written: entries.map(|entry| entry.expression.to_string()),
                         link: row.link.as_ref().map(|link| link.value.clone()),
                     })

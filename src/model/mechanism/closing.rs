@@ -202,6 +202,7 @@ impl Mechanism {
             a: number(0.0),
             d: form(slides.then_some(joint)),
             theta: form((!slides).then_some(joint)),
+            beta: number(0.0),
             written: Default::default(),
             link: None,
         });

@@ -31,8 +31,8 @@ impl<T: Number> LinearForm<T> {
 
 /// One row of a table as: a fixed displacement, a motion about and along z, a fixed displacement.
 ///
-/// Modified: before = Rx(αᵢ₋₁)·Tx(aᵢ₋₁)·Rz(θ₀)·Tz(d₀), after = 1.
-/// Standard: before = Rz(θ₀)·Tz(d₀), after = Tx(aᵢ)·Rx(αᵢ).
+/// Modified: before = Rx(αᵢ₋₁)·Tx(aᵢ₋₁)·Ry(βᵢ₋₁)·Rz(θ₀)·Tz(d₀), after = 1.
+/// Standard: before = Rz(θ₀)·Tz(d₀), after = Tx(aᵢ)·Rx(αᵢ)·Ry(βᵢ).
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowDimensions<T> {
     /// Displacement ahead of the joint axis.

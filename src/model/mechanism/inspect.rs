@@ -124,7 +124,8 @@ impl Mechanism {
             GivenForm::Identities(_) => false,
         });
         let on_it = self.chains.iter().filter(|chain| chain.on == frame);
-        (!closed && !printed).then(|| Turned {
+        let tilted = !self.chains[chain].rows[row].beta.is_zero();
+        (!closed && !printed && !tilted).then(|| Turned {
             beside,
             on_it: on_it.map(|chain| chain.name.clone()).collect(),
         })
@@ -189,6 +190,7 @@ impl Mechanism {
                 visit(&row.a, Measure::Length);
                 visit(&row.d.constant, Measure::Length);
                 visit(&row.theta.constant, Measure::Angle);
+                visit(&row.beta, Measure::Angle);
             }
         }
         for (_, steps) in self

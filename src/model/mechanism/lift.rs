@@ -87,6 +87,9 @@ impl ChainRow {
         };
         link.shift(Axis::X, a);
         link.turn(Axis::X, alpha);
+        if !self.beta.is_zero() {
+            link.turn(Axis::Y, value(&self.beta, parameters)?);
+        }
         // Rz(θ₀) and Tz(d₀) commute with the motion about and along the same z
         before.turn(Axis::Z, theta);
         before.shift(Axis::Z, d);

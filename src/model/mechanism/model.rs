@@ -110,8 +110,10 @@ pub struct ChainRow {
     pub d: Affine<Symbol>,
     /// Angle about the joint axis (rad), affine in the joint variables.
     pub theta: Affine<Symbol>,
-    /// α, a, d, θ as written in the file.
-    pub written: [String; 4],
+    /// Turn about y behind the twist (rad).
+    pub beta: Formula,
+    /// α, a, d, θ, β as written in the file.
+    pub written: [String; 5],
     /// The name of the link behind it, if the file gives one.
     pub link: Option<String>,
 }

@@ -117,6 +117,7 @@ impl Mechanism {
                 a: Formula::number(0.0),
                 d: affine(0.0, vec![(joint, Formula::number(1.0))]),
                 theta: affine(*theta, Vec::new()),
+                beta: Formula::number(0.0),
                 written: Default::default(),
                 link: None,
             }

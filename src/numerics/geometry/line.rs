@@ -28,19 +28,24 @@ pub enum Relation {
     Coincident,
     /// They are one line with opposite directions.
     AntiCoincident,
+    /// They are parallel but for the digits of a file: their common normal is far away, and none is used.
+    NearlyParallel,
 }
 
 impl Relation {
     /// True if the directions are equal or opposite; the common normal may then lie anywhere along the lines.
     pub fn is_parallel(self) -> bool {
-        !matches!(self, Relation::Skew | Relation::Intersecting)
+        !matches!(
+            self,
+            Relation::Skew | Relation::Intersecting | Relation::NearlyParallel
+        )
     }
 
     /// True if the lines meet, so that the common normal has length zero.
     pub fn meets(self) -> bool {
         !matches!(
             self,
-            Relation::Skew | Relation::Parallel | Relation::AntiParallel
+            Relation::Skew | Relation::Parallel | Relation::AntiParallel | Relation::NearlyParallel
         )
     }
 }

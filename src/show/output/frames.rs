@@ -19,9 +19,6 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Mechanism;
 use crate::number::tolerance::WRITTEN_ZERO;
 
-/// Axes this near to parallel get a remark though their normal is used.
-const NEARLY_PARALLEL: f64 = 1e-3;
-
 impl Report for FramesReport {
     fn document(&self) -> Document {
         document(self, false)
@@ -119,6 +116,7 @@ pub(super) fn relation(relation: Option<Relation>) -> &'static str {
         Some(Relation::AntiParallel) => "anti-parallel",
         Some(Relation::Coincident) => "one line",
         Some(Relation::AntiCoincident) => "one line, opposite",
+        Some(Relation::NearlyParallel) => "nearly parallel",
     }
 }
 
@@ -144,6 +142,7 @@ fn choice(normal: &PlacedNormal, k: usize) -> String {
         Some(Relation::Skew) => "none".into(),
         Some(Relation::Intersecting) => format!("sense of x{k}: θ{k} within ±90°"),
         Some(Relation::Parallel | Relation::AntiParallel) => format!("place of x{k}: d{k} = 0"),
+        Some(Relation::NearlyParallel) => format!("β{k}, and the place of x{k}: d{k} = 0"),
         Some(_) => format!("x{k}: θ{k} = 0, d{k} = 0"),
     }
 }
@@ -165,13 +164,12 @@ fn remark(normal: &PlacedNormal) -> Option<String> {
             size(normal.distance)
         ));
     }
-    if !found.is_parallel() && off < NEARLY_PARALLEL {
-        return Some(format!(
-            "nearly parallel: {} rad apart, beyond {tolerance}; the common normal lies far away",
+    (found == Relation::NearlyParallel).then(|| {
+        format!(
+            "{} rad apart, beyond {tolerance}: β in place of the common normal, which lies far away",
             size(off)
-        ));
-    }
-    None
+        )
+    })
 }
 
 fn normals(chain: &PlacedChain) -> Section {

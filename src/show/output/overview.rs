@@ -87,7 +87,8 @@ pub(super) fn chain(chain: &ChainOverview) -> Section {
     let entries = |row: &RowOverview| {
         let lengths = [&row.a, &row.d].map(|entry| (entry.clone(), SiUnit::METRE));
         let angles = [&row.alpha, &row.theta].map(|entry| (entry.clone(), SiUnit::RADIAN));
-        lengths.into_iter().chain(angles)
+        let tilt = row.beta.clone().map(|entry| (entry, SiUnit::RADIAN));
+        lengths.into_iter().chain(angles).chain(tilt)
     };
     let mut values: Vec<String> = Vec::new();
     for (entry, unit) in chain.rows.iter().flat_map(entries) {
@@ -111,17 +112,24 @@ fn table(chain: &ChainOverview) -> TableOf<(usize, &RowOverview)> {
     let table = Table::of((1..).zip(&chain.rows))
         .ruled()
         .words("i", |(i, _)| i);
+    let tilted = chain.rows.iter().any(|row| row.beta.is_some());
+    let tilt = |(_, row): (usize, &RowOverview), _| match &row.beta {
+        Some(beta) => beta.written.clone(),
+        None => "0".into(),
+    };
     match chain.convention {
         Convention::Modified => table
             .words("αᵢ₋₁", |(_, row)| &row.alpha.written)
             .words("aᵢ₋₁", |(_, row)| &row.a.written)
+            .each(tilted.then_some("βᵢ₋₁"), tilt)
             .words("dᵢ", |(_, row)| &row.d.written)
             .words("θᵢ", |(_, row)| &row.theta.written),
         Convention::Standard => table
             .words("θᵢ", |(_, row)| &row.theta.written)
             .words("dᵢ", |(_, row)| &row.d.written)
             .words("aᵢ", |(_, row)| &row.a.written)
-            .words("αᵢ", |(_, row)| &row.alpha.written),
+            .words("αᵢ", |(_, row)| &row.alpha.written)
+            .each(tilted.then_some("βᵢ"), tilt),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Chains in the other convention.
 //!
-//! Both are the product base · J₁ L₁ J₂ … L_{n−1} J_n · tip with J = Rz(θ)·Tz(d), L = Tx(a)·Rx(α).
+//! Both are the product base · J₁ L₁ J₂ … L_{n−1} J_n · tip with J = Rz(θ)·Tz(d), L = Tx(a)·Rx(α)·Ry(β).
 //! A modified row is L_{k−1} J_k, a standard row J_k L_k: twist and length move to the neighbouring
 //! row, a remainder at an end into base or tip. Frame k moves by L_k.
 
@@ -11,8 +11,8 @@ use crate::description::{
     ChainDescription, Convention, Displacement, Entry, RowDescription, Spanned,
 };
 
-/// (α, a) of L₀ … L_n.
-type Links = Vec<(Entry, Entry)>;
+/// a, α and β of L₀ … L_n.
+type Links = Vec<[Entry; 3]>;
 
 pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
     let description = &mut conversion.description;
@@ -30,8 +30,7 @@ pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
     let renamed = exchange(description, |frame| {
         moved.iter().find_map(|(chain, links)| {
             let k = link_of(frame, chain)?;
-            let (alpha, a) = links.get(k)?;
-            let step = link(alpha, a);
+            let step = link(links.get(k)?.each_ref());
             // the modified frame stands before L_k, the standard one behind it
             let steps = match to {
                 Convention::Modified if k > 0 => step,
@@ -56,8 +55,10 @@ pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
 }
 
 fn links(rows: &[RowDescription], from: Convention) -> Links {
-    let own = rows.iter().map(|row| (row.alpha.clone(), row.a.clone()));
-    let nothing = std::iter::once((zero(), zero()));
+    let own = rows
+        .iter()
+        .map(|row| [&row.a, &row.alpha, &row.beta].map(Entry::clone));
+    let nothing = std::iter::once([zero(), zero(), zero()]);
     match from {
         Convention::Modified => own.chain(nothing).collect(),
         Convention::Standard => nothing.chain(own).collect(),
@@ -68,15 +69,16 @@ fn rewrite(chain: &mut ChainDescription, links: &Links, to: Convention) {
     let n = chain.rows.len();
     let shift = usize::from(to == Convention::Standard);
     let rows = chain.rows.iter().enumerate().map(|(k, old)| {
-        let (alpha, a) = links[k + shift].clone();
+        let [a, alpha, beta] = links[k + shift].clone();
         RowDescription {
             alpha,
             a,
+            beta,
             ..old.clone()
         }
     });
     chain.rows = rows.collect();
-    let step = |k: usize| -> Vec<Displacement> { link(&links[k].0, &links[k].1) };
+    let step = |k: usize| -> Vec<Displacement> { link(links[k].each_ref()) };
     match to {
         Convention::Standard => chain.base.extend(step(0)),
         Convention::Modified => {

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 use super::references::rename;
 use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
-use crate::description::steps::{doing_something, joined, zero};
+use crate::description::steps::{joined, link, zero};
 use crate::description::{
     AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention,
     Description, Displacement, Entry, GROUND, Named, RowDescription, Spanned, first_free,
@@ -111,17 +111,14 @@ fn axis_of(
     fixed: [Entry; 2],
 ) -> Displacements {
     let [d, theta] = fixed;
-    let link = [
-        Displacement::Rotate(Axis::X, row.alpha.clone()),
-        Displacement::Translate(Axis::X, row.a.clone()),
-    ];
+    let link = link([&row.a, &row.alpha, &row.beta]);
     let joint = [
         Displacement::Rotate(Axis::Z, theta),
         Displacement::Translate(Axis::Z, d),
     ];
     let steps = before.iter().cloned();
     match convention {
-        Convention::Modified => joined(steps.chain(doing_something(link)).chain(joint)),
+        Convention::Modified => joined(steps.chain(link).chain(joint)),
         Convention::Standard => joined(steps.chain(joint)),
     }
 }
@@ -171,10 +168,7 @@ impl Drawing<'_> {
         for (k, row) in part.rows.iter().enumerate() {
             at = axis_of(&at, row, built.convention, self.constants(row));
             if built.convention == Convention::Standard {
-                let link = [
-                    Displacement::Translate(Axis::X, row.a.clone()),
-                    Displacement::Rotate(Axis::X, row.alpha.clone()),
-                ];
+                let link = link([&row.a, &row.alpha, &row.beta]);
                 at = joined(at.into_iter().chain(link));
             }
             self.places

@@ -56,6 +56,10 @@ pub(super) fn cut(
     let written = mechanism.as_written();
     let place = find(&written, description, joint)?;
     let (closure, side) = closing(&written, &place, joint)?;
+    let behind = description.chains[place.chain].value.rows[place.row..].iter();
+    if behind.skip(1).any(|row| !row.beta.expression.is_zero()) {
+        return Err(CutError::Tilted(joint.to_owned()));
+    }
     let declared = mechanism.closures()[closure].opened.is_some();
     let motion = ClosureRows::of(&written, description, closure, side, declared);
     Ok(rebuild(
@@ -200,12 +204,14 @@ fn rebuild(
     let Named { name, value: chain } = &description.chains[place.chain];
     let (old, r) = (&chain.rows, place.row);
     let n = old.len();
-    let links = |k: usize| match convention {
-        // L_k of k from 0 to n
-        Convention::Modified => old.get(k).map(|row| link(&row.alpha, &row.a)),
-        Convention::Standard => k.checked_sub(1).map(|k| link(&old[k].alpha, &old[k].a)),
+    // L_k of k from 0 to n
+    let links = |k: usize| {
+        let row = match convention {
+            Convention::Modified => old.get(k),
+            Convention::Standard => k.checked_sub(1).map(|k| &old[k]),
+        };
+        row.map_or_else(Vec::new, |row| link([&row.a, &row.alpha, &row.beta]))
     };
-    let links = |k: usize| links(k).unwrap_or_default();
     // forth to the axis of the joint
     let fixed = [
         Displacement::Rotate(Axis::Z, constant(&old[r].theta, description)),

@@ -61,7 +61,10 @@ fn row(row: &TableRow, variable: &str) -> RowDescription {
         factor => moving(constant, factor, variable),
     };
     let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
-    RowDescription::new(alpha, a, with(d, row.slide), with(theta, row.turn))
+    RowDescription {
+        beta: Entry::angle(row.beta),
+        ..RowDescription::new(alpha, a, with(d, row.slide), with(theta, row.turn))
+    }
 }
 
 /// The first rows of a table, as many as there are names of variables.

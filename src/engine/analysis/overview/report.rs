@@ -144,6 +144,9 @@ pub struct RowOverview {
     pub d: EntryOverview,
     /// Joint angle.
     pub theta: EntryOverview,
+    /// Turn about y behind the twist, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beta: Option<EntryOverview>,
 }
 
 /// An entry of a table.

@@ -81,21 +81,6 @@ pub enum AxesProblem {
     /// A base from which no row leads to the first axis.
     #[error("frame 0 cannot be placed as `base` says; it is placed freely")]
     BaseUnused { convention: Convention },
-    /// Nearly parallel axes whose common normal is far away.
-    #[error(
-        "the axes of `{}` and `{}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
-         {offset:.1e} m away, {:.0e} times the size of the mechanism",
-        joints[0], joints[1], offset / size
-    )]
-    FarNormal {
-        joints: [String; 2],
-        /// Angle between the axes.
-        angle: f64,
-        /// Offset that leads to the normal.
-        offset: f64,
-        /// Size of the mechanism.
-        size: f64,
-    },
 }
 
 impl AxesProblem {
@@ -108,10 +93,7 @@ impl AxesProblem {
     pub fn is_warning(&self) -> bool {
         matches!(
             self,
-            Self::DriveCut { .. }
-                | Self::LimitsCut { .. }
-                | Self::BaseUnused { .. }
-                | Self::FarNormal { .. }
+            Self::DriveCut { .. } | Self::LimitsCut { .. } | Self::BaseUnused { .. }
         )
     }
 }

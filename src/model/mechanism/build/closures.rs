@@ -113,7 +113,7 @@ impl ModelBuilder<'_> {
 
     /// True if a name in the row may be that of a joint after all.
     fn may_move(&self, row: &ChainRow) -> bool {
-        let [_, _, d, theta] = &row.written;
+        let [_, _, d, theta, _] = &row.written;
         [d, theta].into_iter().any(|written| {
             let mut words = written.split(|c: char| !(c.is_alphanumeric() || c == '_'));
             words.any(|word| self.doubtful.contains(word))

@@ -1,7 +1,7 @@
 use super::prismatic;
 use super::{DhTable, JointAxis, SerialAxes, TableRow};
 use crate::description::Convention;
-use crate::geometry::{Line, Pose, Relation, Rotation, Vector3};
+use crate::geometry::{CommonNormal, Line, Pose, Relation, Rotation, Vector3};
 use crate::linear::RANK_TOLERANCE;
 use crate::number::real;
 
@@ -34,7 +34,7 @@ pub struct Normal {
     pub angle: f64,
     /// The distance in m between the lines as given.
     pub distance: f64,
-    /// Unit vector along the normal: x_k.
+    /// Unit vector along the normal: x_k. Where axes are nearly parallel, along the line from the first foot to the second.
     pub x: Vector3<f64>,
     /// z at its start and at its end.
     pub z: [Vector3<f64>; 2],
@@ -56,16 +56,42 @@ impl Normal {
     }
 
     fn frame(&self, side: usize) -> Pose<f64> {
-        let z = self.z[side];
+        let (x, z) = ([self.x, self.end()][side], self.z[side]);
         Pose {
-            rotation: Rotation([self.x, z.cross(&self.x), z]),
+            rotation: Rotation([x, z.cross(&x), z]),
             position: self.feet[side],
         }
     }
 
-    /// α, the angle from the first axis to the second about x.
+    /// y before and after the turn by β, which is about it.
+    fn y(&self) -> Vector3<f64> {
+        let y = self.z[1].cross(&self.x);
+        y.times(1.0 / y.norm())
+    }
+
+    /// x after the turn by β.
+    fn end(&self) -> Vector3<f64> {
+        match self.relation {
+            Some(Relation::NearlyParallel) => self.y().cross(&self.z[1]),
+            _ => self.x,
+        }
+    }
+
+    /// α, the angle from the first axis to the second about x, less β.
     fn alpha(&self) -> f64 {
-        angle_about(&self.x, &self.z[0], &self.z[1])
+        let twisted = match self.relation {
+            Some(Relation::NearlyParallel) => self.x.cross(&self.y()),
+            _ => self.z[1],
+        };
+        angle_about(&self.x, &self.z[0], &twisted)
+    }
+
+    /// β, the angle about y that leads on to the second axis where axes are nearly parallel.
+    fn beta(&self) -> f64 {
+        match self.relation {
+            Some(Relation::NearlyParallel) => angle_about(&self.y(), &self.x, &self.end()),
+            _ => 0.0,
+        }
     }
 
     /// a, the length.
@@ -171,7 +197,7 @@ impl SerialAxes {
     /// own variable.
     fn unmoved(&self, k: usize, last: &Normal, axis: &Line) -> (Vector3<f64>, Vector3<f64>) {
         let (turn, slide) = self.joints[k].home_motion();
-        let x = turned(&last.x, &axis.direction, turn);
+        let x = turned(&last.end(), &axis.direction, turn);
         (x, last.feet[1] + axis.direction.times(slide))
     }
 
@@ -180,9 +206,17 @@ impl SerialAxes {
         let (axis, next) = (axes[k], axes[k + 1]);
         let (x, start) = self.unmoved(k, last, &axis);
         let common = axis.common_normal(&next, length);
-        let relation = common.relation;
         let z = axis.direction;
-        let (x, feet) = match (relation, common.direction) {
+        if let Some(normal) = nearly_parallel(x, start, &next, &common, (z, length)) {
+            return normal;
+        }
+        let relation = common.relation;
+        // the product of nearly parallel directions is at right angles to them up to rounding divided by its size
+        let normal = (common.direction).map(|n| match n.dot(&z) {
+            off if off.abs() > ROUNDING => perpendicular(&z, [n]),
+            _ => n,
+        });
+        let (x, feet) = match (relation, normal) {
             (Relation::Skew, Some(n)) => (n, common.feet),
             (Relation::Intersecting, Some(n)) => {
                 // at a right angle either way along the vector product
@@ -194,7 +228,7 @@ impl SerialAxes {
             (_, None) => (x, [start, start]),
         };
         let direction = match relation {
-            Relation::Skew | Relation::Intersecting => next.direction,
+            Relation::Skew | Relation::Intersecting | Relation::NearlyParallel => next.direction,
             Relation::Parallel | Relation::Coincident => z,
             Relation::AntiParallel | Relation::AntiCoincident => -z,
         };
@@ -245,7 +279,7 @@ impl SerialAxes {
                 Convention::Modified => before,
                 Convention::Standard => after,
             };
-            let theta = angle_about(z, &before.x, &after.x) - joint.turn * joint.home;
+            let theta = angle_about(z, &before.end(), &after.x) - joint.turn * joint.home;
             let d = (after.feet[0] - before.feet[1]).dot(z) - joint.slide * joint.home;
             let reach = length + before.feet[1].norm() + after.feet[0].norm();
             TableRow {
@@ -253,6 +287,7 @@ impl SerialAxes {
                 a: without_rounding(link.a().max(0.0), reach),
                 d: without_rounding(d, reach),
                 theta: wrapped(theta),
+                beta: link.beta(),
                 turn: joint.turn,
                 slide: joint.slide,
                 home: joint.home,
@@ -307,6 +342,46 @@ impl SerialAxes {
         }
         (turned, moved)
     }
+}
+
+/// The largest angle, in rad, between nearly parallel axes.
+pub(super) const NEARLY_PARALLEL: f64 = 1e-2;
+
+/// A common normal is far away from where the axes are beyond so many times the size of the chain.
+const FAR: f64 = 10.0;
+
+/// The link between axes that are parallel but for the digits of a file, whose common normal is far away: in the plane
+/// normal to the first axis where d = 0, to where the second meets it.
+///
+/// Source: S. A. Hayati, M. Mirmirani, Improving the absolute positioning accuracy of robot manipulators, J. Robotic
+/// Systems 2, 1985.
+fn nearly_parallel(
+    x: Vector3<f64>,
+    start: Vector3<f64>,
+    next: &Line,
+    common: &CommonNormal,
+    (z, length): (Vector3<f64>, f64),
+) -> Option<Normal> {
+    let angle = common.angle.min(std::f64::consts::PI - common.angle);
+    let away = (common.feet[0] - start).norm();
+    if common.relation.is_parallel() || angle > NEARLY_PARALLEL || away <= FAR * length {
+        return None;
+    }
+    let along = (start - next.point).dot(&z) / next.direction.dot(&z);
+    let end = next.point + next.direction.times(along);
+    let link = end - start;
+    let apart = link.norm();
+    Some(Normal {
+        relation: Some(Relation::NearlyParallel),
+        angle: common.angle,
+        distance: common.distance,
+        x: match apart > RANK_TOLERANCE * length {
+            true => perpendicular(&z, [link.times(1.0 / apart)]),
+            false => x,
+        },
+        z: [z, next.direction],
+        feet: [start, end],
+    })
 }
 
 /// The link that leads from a frame to a line along the frame's x axis: x meets the line at a right

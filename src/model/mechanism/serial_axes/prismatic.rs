@@ -12,6 +12,7 @@
 //! Several prismatic joints in a row follow one another so that their offsets are zero.
 
 use super::SerialAxes;
+use super::assignment::NEARLY_PARALLEL;
 use crate::geometry::{Line, Vector3};
 
 /// Places the run of prismatic axes that begins with index `first`, if there is one. `near` is where
@@ -89,7 +90,8 @@ fn defined_origin(
     let next = axes.joints.get(k + 1);
     next.filter(|joint| !joint.is_prismatic())?;
     let normal = lines[k].common_normal(&lines[k + 1], length);
-    (!normal.relation.is_parallel()).then_some(normal.feet[0])
+    let sine = lines[k].direction.cross(&lines[k + 1].direction).norm();
+    (!normal.relation.is_parallel() && sine > NEARLY_PARALLEL).then_some(normal.feet[0])
 }
 
 /// A free origin P on the next axis: the slide's axis through P − `rest` either meets the previous

@@ -29,6 +29,9 @@ pub struct TableRow {
     pub d: f64,
     /// θ where the variable is zero, in rad.
     pub theta: f64,
+    /// Turn about y behind the twist, in rad: zero but where axes are nearly parallel.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub beta: f64,
     /// Factor of the variable in θ.
     pub turn: f64,
     /// Factor of the variable in d.
@@ -38,11 +41,20 @@ pub struct TableRow {
     pub home: f64,
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
 impl TableRow {
-    /// Rx(α)·Tx(a).
+    /// Rx(α)·Tx(a)·Ry(β).
     pub fn link(&self) -> Pose<f64> {
         let along = Pose::translation(Vector3::unit(0).times(self.a));
-        Pose::rotation(Axis::X, self.alpha) * along
+        let link = Pose::rotation(Axis::X, self.alpha) * along;
+        match self.beta {
+            0.0 => link,
+            beta => link * Pose::rotation(Axis::Y, beta),
+        }
     }
 
     /// Rz(θ)·Tz(d) in the home configuration.

@@ -33,6 +33,7 @@ fn why_origin(found: Option<Relation>, k: usize) -> String {
         None => format!("free: where d{k} = 0"),
         Some(Relation::Skew) => "at the foot of the common normal".into(),
         Some(Relation::Intersecting) => "where the axes meet".into(),
+        Some(Relation::NearlyParallel) => format!("on the axis where d{k} = 0"),
         Some(_) => format!("free along the axis: where d{k} = 0"),
     }
 }
@@ -41,6 +42,12 @@ fn why_x(found: Option<Relation>, k: usize) -> String {
     match found {
         None => format!("free: θ{k} = 0"),
         Some(Relation::Skew) => "along the common normal".into(),
+        Some(Relation::NearlyParallel) => {
+            format!(
+                "orthogonal to the axis, to where axis {} meets that plane",
+                k + 1
+            )
+        }
         Some(Relation::Intersecting) => {
             format!("orthogonal to both axes, in the sense in which θ{k} is within ±90°")
         }
@@ -140,9 +147,13 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
         say(12, format!("a{link} = {}, along x{link}", metres(row.a)));
         let (alpha, from) = (degrees(row.alpha), link - ahead);
         let to = from + 1;
+        let tilt = match row.beta {
+            0.0 => String::new(),
+            beta => format!(", then β{link} = {} about y", degrees(beta)),
+        };
         say(
             13,
-            format!("α{link} = {alpha}, from z{from} to z{to} about x{link}"),
+            format!("α{link} = {alpha}, from z{from} to z{to} about x{link}{tilt}"),
         );
         let on = if k < n { "k ≤ n: go on" } else { "stop" };
         say(14, format!("k = {}; {on}", k + 1));

@@ -20,16 +20,40 @@ pub fn tables(overview: &Overview, names: &FormulaNames) -> String {
 fn table(notation: &Notation, chain: &ChainOverview) -> String {
     let entry = |entry: &EntryOverview| format!("${}$", written(notation, &entry.written));
     let modified = chain.convention == Convention::Modified;
-    let columns = match modified {
-        true => r"$\alpha_{i-1}$ & $a_{i-1}$ & $d_i$ & $\theta_i$",
-        false => r"$\theta_i$ & $d_i$ & $a_i$ & $\alpha_i$",
+    let (mut link, joint) = match modified {
+        true => (
+            vec![r"$\alpha_{i-1}$", "$a_{i-1}$"],
+            ["$d_i$", r"$\theta_i$"],
+        ),
+        false => (vec!["$a_i$", r"$\alpha_i$"], [r"$\theta_i$", "$d_i$"]),
     };
+    let tilted = chain.rows.iter().any(|row| row.beta.is_some());
+    if tilted {
+        link.push(if modified {
+            r"$\beta_{i-1}$"
+        } else {
+            r"$\beta_i$"
+        });
+    }
+    fn ordered<C>(modified: bool, link: Vec<C>, joint: [C; 2]) -> Vec<C> {
+        let joint = joint.into();
+        let (mut first, second) = if modified {
+            (link, joint)
+        } else {
+            (joint, link)
+        };
+        first.extend(second);
+        first
+    }
+    let columns = ordered(modified, link, joint);
     let order = |row: &RowOverview| {
         let [alpha, a, d, theta] = [&row.alpha, &row.a, &row.d, &row.theta].map(entry);
-        match modified {
-            true => [alpha, a, d, theta],
-            false => [theta, d, a, alpha],
-        }
+        let (mut link, joint) = match modified {
+            true => (vec![alpha, a], [d, theta]),
+            false => (vec![a, alpha], [theta, d]),
+        };
+        link.extend(tilted.then(|| row.beta.as_ref().map_or("$0$".into(), entry)));
+        ordered(modified, link, joint)
     };
     let on = upright(&chain.on);
     let mut text = format!("Chain ${}$ on ${on}$", upright(&chain.name));
@@ -39,8 +63,9 @@ fn table(notation: &Notation, chain: &ChainOverview) -> String {
     if chain.rows.is_empty() {
         return text;
     }
-    text += "\\begin{tabular}{ccccc}\n\\toprule\n";
-    text += &format!("$i$ & {columns} \\\\\n\\midrule\n");
+    let places = "c".repeat(columns.len() + 1);
+    text += &format!("\\begin{{tabular}}{{{places}}}\n\\toprule\n");
+    text += &format!("$i$ & {} \\\\\n\\midrule\n", columns.join(" & "));
     for (i, row) in (1..).zip(&chain.rows) {
         text += &format!("{i} & {} \\\\\n", order(row).join(" & "));
     }

@@ -31,6 +31,9 @@ pub enum CutError {
     /// No closure holds the links behind the joint.
     #[error("`{0}` is not part of a loop: after the cut nothing would hold the links behind it")]
     NoLoop(String),
+    /// A row behind it has β, and the way back along its link is no row.
+    #[error("a row behind `{0}` has `beta`, which no row undoes")]
+    Tilted(String),
     /// The closures that do are not at the end of the joint's own chain, or cannot become rows.
     #[error(
         "the links behind `{joint}` are held only by {}, which cannot become rows at the end of \

@@ -47,9 +47,6 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
         BaseUnused {
             convention: Convention::Standard,
         } => "its z axis must lie on the first joint's axis and point the same way".into(),
-        FarNormal { .. } => {
-            "if they are meant to be parallel, give both the same direction: axes within 1e-7 rad count as parallel".into()
-        }
         _ => return None,
     })
 }
