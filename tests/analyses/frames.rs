@@ -509,7 +509,7 @@ mod files {
             let axes = match joint_axes(&mechanism, &closed(&mechanism)) {
                 Ok(axes) => axes,
                 Err(AxesError::Row { .. } | AxesError::Closure { .. }) => continue,
-                Err(AxesError::TooFew | AxesError::Coupling { .. }) => {
+                Err(AxesError::TooFew) => {
                     panic!("{path:?} has joints")
                 }
             };

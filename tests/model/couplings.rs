@@ -2,8 +2,10 @@
 #![cfg(feature = "interchange")]
 
 use linkwork::analysis::assembly::AssemblySettings;
+use linkwork::analysis::convert::to_axes;
+use linkwork::analysis::frames::{FramesSettings, frames, joint_axes};
 use linkwork::ask::{Question, Solved};
-use linkwork::description::Description;
+use linkwork::description::{AxesDescription, Description};
 use linkwork::interchange::{ImportSettings, NotRead, import, tree_of, write_mjcf};
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
@@ -137,6 +139,50 @@ fn joints_follow_by_expressions() {
         Ok(Solved::Ended(report)) => assert!(!report.is_assembled()),
         other => panic!("{other:?}"),
     }
+}
+
+/// A steering whose wheels follow one another by a curve, in joint coordinates, as tables and back, and as axes of tables
+/// on numbers: the right wheel follows from the left.
+#[test]
+fn joint_coordinates_have_couplings_too() {
+    let text = r#"Axes(version: 1, name: "steering", parameters: { "gain": 0.4, "half": "0.7 m" },
+        joints: {
+            "left": Revolute(point: ("-half", 0, 0), direction: (0, 0, 1), between: ("ground", "left wheel"), role: Actuated),
+            "right": Revolute(point: ("half", 0, 0), direction: (0, 0, 1), between: ("ground", "right wheel"), role: Passive),
+        },
+        couplings: { "Ackermann": "right - left - gain*left^2" })"#;
+    let angle = |mechanism: &Mechanism| {
+        let question = Question::new(mechanism.clone()).hold("left", 0.5);
+        near(values(&question, ["left", "right"])[1], 0.5 + 0.4 * 0.25);
+    };
+    let axes = AxesDescription::read(text).unwrap();
+    assert_eq!(
+        AxesDescription::read(&axes.to_ron().unwrap()).unwrap(),
+        axes
+    );
+    let tables = axes.tables().unwrap();
+    let mechanism = Mechanism::new(&tables).unwrap();
+    angle(&mechanism);
+    let written = Description {
+        coordinates: None,
+        ..tables
+    };
+    let mechanism = Mechanism::new(&written).unwrap();
+    let (again, _) = to_axes(&mechanism, &written).unwrap();
+    assert_eq!(
+        again.couplings[0].value.expression,
+        axes.couplings[0].value.expression
+    );
+    angle(&Mechanism::new(&again.tables().unwrap()).unwrap());
+    let numbers = joint_axes(&mechanism, &mechanism.home()).unwrap();
+    assert_eq!(numbers.parameters.len(), 1);
+    let placed = frames(&numbers, &FramesSettings::default()).unwrap();
+    angle(&Mechanism::new(&placed.description).unwrap());
+    // a name that no joint has
+    let wrong = text.replace("gain*left^2", "gain*middle^2");
+    let tables = AxesDescription::read(&wrong).unwrap().tables().unwrap();
+    let problems = Mechanism::new(&tables).unwrap_err();
+    assert!(problems[0].kind.title().contains("middle"), "{problems:?}");
 }
 
 #[test]

@@ -95,11 +95,6 @@ pub enum ConvertError {
         "the variable `{0}` never occurs alone with the factor 1 or -1, so that no joint can have it as its own"
     )]
     NotAlone(String),
-    /// A relation between joints, which joint coordinates have no place for.
-    #[error(
-        "the coupling `{0}` relates joints by an expression, which joint coordinates cannot say"
-    )]
-    Coupling(String),
     /// The result is not a mechanism.
     #[error("the converted file is not a mechanism: {}", titles(.0))]
     Wrong(Vec<Problem>),

@@ -129,10 +129,12 @@ impl AxesDescription {
         let points = self.points.iter().map(|point| &point.value.place);
         let bodies = self.bodies.iter().map(|body| &body.value);
         let places = places.flatten().chain(points).chain(bodies);
+        let related = self.couplings.iter().map(|coupling| &coupling.value);
         let ends = self.base.iter().chain(&self.tool).flatten();
         (places.flat_map(AxisPlace::entries))
             .chain(joints().flat_map(AxisDescription::values))
             .chain(ends.flat_map(Displacement::entries))
+            .chain(related)
     }
 }
 

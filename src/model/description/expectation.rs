@@ -35,6 +35,7 @@ nouns! {
     Platform = "a platform", "`Platform(…)`";
     PlatformFrame = "a platform frame", "a list of displacements";
     Closure = "a closure", "a closure";
+    Coupling = "a coupling", "an expression of joints";
     ClosedForm = "a closed form", "`ClosedForm(…)`";
     LocalName = "a local name", "a number or an expression";
     MatrixEntry = "an entry of a pose", "a number or an expression";

@@ -167,6 +167,17 @@ impl ClosureDescription {
             span: 0..0,
         }
     }
+
+    /// The expression of a coupling.
+    pub fn coupling(expression: Entry, span: Range<usize>) -> Self {
+        let ground = || Spanned::new(GROUND.to_owned(), span.clone());
+        Self {
+            kind: ClosureKind::Coupling,
+            frames: [ground(), ground()],
+            length: Some(expression),
+            span,
+        }
+    }
 }
 
 impl RowDescription {

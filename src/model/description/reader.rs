@@ -158,13 +158,8 @@ impl FileReader {
         let expected = Expected::ClosureFrames(kind);
         if kind == ClosureKind::Coupling {
             let [expression] = self.content(piece, content, expected)?;
-            let ground = || Spanned::new(GROUND.to_owned(), piece.span());
-            return Some(ClosureDescription {
-                kind,
-                frames: [ground(), ground()],
-                length: Some(self.entry(expression)?),
-                span: piece.span(),
-            });
+            let expression = self.entry(expression)?;
+            return Some(ClosureDescription::coupling(expression, piece.span()));
         }
         let (frames, length) = if kind.has_length() {
             let [from, to, length] = self.content(piece, content, expected)?;

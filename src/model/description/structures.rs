@@ -215,6 +215,8 @@ macro_rules! axes_structures {
                 base: Option<Vec<Displacement>> = "base" as Expected::TRANSFORM,
                 /// The frame at which a serial chain ends.
                 tool: Option<Vec<Displacement>> = "tool" as Expected::TRANSFORM,
+                /// Expressions of joints that are zero, as of cams and gears of varying ratio.
+                couplings: Vec<Named<Entry>> = "couplings" as Expected::MapOf(Noun::Coupling),
                 /// The joints at which closed loops are to be cut.
                 cut: Vec<Spanned<String>> = "cut" as Expected::CUTS,
                 /// Formulas to be checked.

@@ -249,6 +249,6 @@ pub fn no_axes(error: &AxesError) -> Complaint {
         ),
         AxesError::Closure { .. } => complaint
             .help("write the length as a constant plus a variable that occurs nowhere else"),
-        AxesError::TooFew | AxesError::Coupling { .. } => complaint,
+        AxesError::TooFew => complaint,
     }
 }

@@ -20,9 +20,9 @@ use super::{ConversionNote, ConvertError};
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{joined, link, zero};
 use crate::description::{
-    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention,
-    Description, Displacement, Entry, GROUND, Named, RowDescription, Spanned, first_free,
-    free_variable, place_of,
+    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, Convention, Description,
+    Displacement, Entry, GROUND, Named, RowDescription, Spanned, first_free, free_variable,
+    place_of,
 };
 use crate::mechanism::{Body, Frame, Mechanism};
 
@@ -40,10 +40,6 @@ pub fn to_axes(
 ) -> Result<(AxesDescription, Vec<ConversionNote>), ConvertError> {
     if let Some(coordinates) = &description.coordinates {
         return Ok((coordinates.axes.clone(), Vec::new()));
-    }
-    let mut closures = mechanism.closures().iter();
-    if let Some(coupling) = closures.find(|of| of.kind == ClosureKind::Coupling) {
-        return Err(ConvertError::Coupling(coupling.name.clone()));
     }
     let mut drawing = Drawing {
         mechanism,

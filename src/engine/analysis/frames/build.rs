@@ -84,7 +84,13 @@ impl<'a> Build<'a> {
         let role = |j: usize| [Role::Passive, Role::Actuated][usize::from(driven[j])];
         let kept = |j: usize| !self.cuts.contains(&j);
         let joints = declarations(self.axes, self.values, kept, role);
-        let closures = self.cuts.iter().map(|&joint| self.closure(joint)).collect();
+        let (related, parameters) = self.values.related.clone();
+        let related = related.into_iter().map(|Named { name, value }| Named {
+            value: ClosureDescription::coupling(value, name.span.clone()),
+            name,
+        });
+        let cut = self.cuts.iter().map(|&joint| self.closure(joint));
+        let closures = cut.chain(related).collect();
         FramesReport {
             mechanism: self.axes.name.value.clone(),
             convention: self.convention,
@@ -92,6 +98,7 @@ impl<'a> Build<'a> {
                 name: self.axes.name.clone(),
                 source: self.axes.source.clone(),
                 convention: Some(Spanned::nowhere(self.convention)),
+                parameters,
                 joints,
                 chains: self.chains,
                 platforms: self.platforms,

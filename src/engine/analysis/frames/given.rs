@@ -1,11 +1,12 @@
 //! The inverse: the joint axes that the tables of a mechanism describe.
 
+use crate::algebra::Measure;
 use crate::description::{
     AxesDescription, AxisDescription, AxisKind, AxisPlace, ClosureKind, Displacement, Entry,
-    GROUND, Named, Role, Spanned, free_variable,
+    GROUND, Named, Role, Spanned, free_variable, place_of,
 };
 use crate::geometry::{Axis, Pose, Vector3};
-use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+use crate::mechanism::{Body, Configuration, Frame, Mechanism, Symbol};
 
 /// Reasons for which a mechanism's joints are not given by axes.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -25,14 +26,6 @@ pub enum AxesError {
         closure: String,
         /// Its kind.
         kind: ClosureKind,
-    },
-    /// A relation between joints, which joint coordinates have no place for.
-    #[error(
-        "the coupling `{closure}` relates joints by an expression, which joint coordinates cannot say"
-    )]
-    Coupling {
-        /// The closure.
-        closure: String,
     },
     /// A chain or platform holds no joint.
     #[error("the mechanism has no joints with axes")]
@@ -116,7 +109,10 @@ pub fn joint_axes(
     let chain = moving.first().copied().filter(|_| serial);
     let convention = mechanism.chains().first().map(|chain| chain.convention);
     let joints = joints.into_iter().map(|joint| joint.described(!serial));
+    let (couplings, parameters) = couplings(mechanism);
     Ok(AxesDescription {
+        couplings,
+        parameters,
         name: Spanned::nowhere(mechanism.name().into()),
         source: mechanism
             .source()
@@ -127,6 +123,35 @@ pub fn joint_axes(
         tool: chain.map(|chain| ends(Frame::Tip { chain })),
         ..AxesDescription::default()
     })
+}
+
+/// The couplings of a mechanism, and the parameters in them as numbers.
+pub(super) fn couplings(mechanism: &Mechanism) -> (Vec<Named<Entry>>, Vec<Named<Entry>>) {
+    let (mut couplings, mut parameters) = (Vec::new(), Vec::<Named<Entry>>::new());
+    for closure in mechanism.closures() {
+        let Some(relation) = &closure.relation else {
+            continue;
+        };
+        let named = relation.try_resolve(|symbol, _| {
+            let index = match *symbol {
+                Symbol::Joint(joint) => return Ok(mechanism.joints()[joint].name.clone()),
+                Symbol::Local(_) => return Err(()),
+                Symbol::Parameter(index) => index,
+            };
+            let of = &mechanism.parameters()[index];
+            if place_of(&parameters, &of.name).is_none() {
+                let value = match of.measure {
+                    Measure::Angle => Entry::angle(of.value),
+                    _ => Entry::length(of.value),
+                };
+                parameters.push(Named::new(of.name.to_string(), value));
+            }
+            Ok(of.name.to_string())
+        });
+        let named = named.expect("joints and parameters alone stand in couplings");
+        couplings.push(Named::new(closure.name.clone(), named.into()));
+    }
+    (couplings, parameters)
 }
 
 /// The name of a body in joint coordinates, where a dot is reserved for frames.
@@ -252,10 +277,7 @@ fn closures(
                 joints.push(slide("_y", y, [slid, between.clone()]));
                 joints.push(joint("_turn", Revolute, &poses[1], [between, to]));
             }
-            ClosureKind::Coupling => {
-                let closure = closure.name.clone();
-                return Err(AxesError::Coupling { closure });
-            }
+            ClosureKind::Coupling => {}
             ClosureKind::Distance => {
                 let ball =
                     |suffix, end: usize, bodies| joint(suffix, Spherical, &poses[end], bodies);

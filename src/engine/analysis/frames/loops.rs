@@ -126,7 +126,7 @@ fn proposed(
     let number = graph.loops(|j| !balls.contains(&j));
     let driven = axes.driven();
     let free: Vec<usize> = (0..axes.joints.len())
-        .filter(|j| !balls.contains(j) && !driven[*j])
+        .filter(|j| !balls.contains(j) && !driven[*j] && !axes.leads(&axes.joints[*j].name.value))
         .collect();
     let mut found = Vec::new();
     let mut choices = 0;

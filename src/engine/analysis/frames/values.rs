@@ -3,8 +3,9 @@
 use std::convert::Infallible;
 
 use super::MOST_JOINTS;
+use super::given::couplings;
 use crate::description::{
-    AxesDescription, AxesProblem, AxisPlace, Displacement, Entry, Problem, ProblemKind,
+    AxesDescription, AxesProblem, AxisPlace, Displacement, Entry, Named, Problem, ProblemKind,
 };
 use crate::geometry::{Line, Pose, Vector3};
 use crate::mechanism::Mechanism;
@@ -19,6 +20,8 @@ pub(super) struct Values {
     pub limits: Vec<Option<(f64, f64)>>,
     pub base: Option<Pose<f64>>,
     pub tool: Option<Pose<f64>>,
+    /// Couplings, and the parameters in them.
+    pub related: (Vec<Named<Entry>>, Vec<Named<Entry>>),
     pub warnings: Vec<Problem>,
 }
 
@@ -71,6 +74,7 @@ impl Values {
                 .collect(),
             base: axes.base.as_ref().map(pose),
             tool: axes.tool.as_ref().map(pose),
+            related: couplings(&mechanism),
             warnings: mechanism
                 .warnings()
                 .iter()

@@ -167,10 +167,13 @@ impl AxesDescription {
         self.joints.iter().enumerate().map(driven).collect()
     }
 
-    /// True if the value of another joint, or a quantity that the file names, is given in terms of this one.
-    pub(crate) fn leads(&self, name: &str) -> bool {
+    /// True if the value of another joint is given in terms of this one, or a coupling relates it.
+    pub fn leads(&self, name: &str) -> bool {
         let values = self.joints.iter().flat_map(|joint| &joint.value.value);
-        let mut names = values.flat_map(|value| value.expression.names());
+        let related = self.couplings.iter().map(|coupling| &coupling.value);
+        let mut names = values
+            .chain(related)
+            .flat_map(|value| value.expression.names());
         names.any(|(used, _)| used == name)
     }
 

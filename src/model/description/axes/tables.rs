@@ -23,9 +23,9 @@ use super::{AxesDescription, AxisKind, AxisPlace};
 use crate::algebra::Expression;
 use crate::description::steps::{joined, zero};
 use crate::description::{
-    AxesProblem, Convention, Description, Displacement, Entry, GROUND, GivenNames,
-    JointDescription, Named, PlatformDescription, Problem, Role, Spanned, first_free, names_of,
-    nearest, place_of,
+    AxesProblem, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
+    GivenNames, JointDescription, Named, PlatformDescription, Problem, Role, Spanned, first_free,
+    names_of, nearest, place_of,
 };
 
 /// Joint coordinates, with the choices made in writing tables of them.
@@ -188,6 +188,11 @@ impl Tables<'_> {
         }
         for &joint in cuts {
             self.close(joint);
+        }
+        for Named { name, value } in &axes.couplings {
+            let value = ClosureDescription::coupling(value.clone(), name.span.clone());
+            let name = name.clone();
+            self.made.closures.push(Named { name, value });
         }
         for point in &axes.points {
             let Some(body) = self.graph.body(&point.value.body.value) else {

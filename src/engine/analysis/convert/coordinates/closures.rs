@@ -37,6 +37,11 @@ impl Drawing<'_> {
 
     pub(super) fn closures(&mut self) {
         for (index, named) in self.description.closures.iter().enumerate() {
+            if let (ClosureKind::Coupling, Some(zero)) = (named.value.kind, &named.value.length) {
+                let coupling = Named::new(named.name.value.clone(), zero.clone());
+                self.axes.couplings.push(coupling);
+                continue;
+            }
             let frames = self.mechanism.closures()[index].frames;
             let at = frames.map(|frame| self.places[&frame].clone());
             let between = frames.map(|frame| self.body(frame));
