@@ -168,14 +168,15 @@ impl Numbers<'_> {
         let rounded = |i: &usize| self.off[*i].is_some();
         let places: Vec<usize> = (0..self.literals.len()).filter(rounded).collect();
         let (named, numbers) = self.named(&places, &[])?;
-        let mut parts = LinkedLoops::of(&named, &numbers)?;
-        for part in &mut parts {
-            part.numbers = part.numbers.iter().map(|&k| places[k]).collect();
-        }
+        let parts = LinkedLoops::of(&named, &numbers)?.into_iter();
         let mut undecided: Option<f64> = None;
         let (mut values, mut most) = (Vec::new(), Gap::NONE);
-        for part in parts.iter().filter(|part| part.unknowns() <= MOST_UNKNOWNS) {
-            match self.nearest_of(part) {
+        for mut part in parts.filter(|part| part.unknowns() <= MOST_UNKNOWNS) {
+            if !is_rounded(&named, &part, &numbers) {
+                continue;
+            }
+            part.numbers = part.numbers.iter().map(|&k| places[k]).collect();
+            match self.nearest_of(&part) {
                 Some(ClosedPart::Undecided(change)) => {
                     undecided = Some(undecided.map_or(change, |other| other.max(change)));
                 }
@@ -193,9 +194,6 @@ impl Numbers<'_> {
     }
 
     fn nearest_of(&self, part: &LinkedLoops) -> Option<ClosedPart> {
-        if !self.is_rounded(part)? {
-            return None;
-        }
         let mut meant = self.meant(part);
         meant.extend(self.parallel(part));
         let wanted = [self.equal(part, &meant), meant];
@@ -204,14 +202,6 @@ impl Numbers<'_> {
         let mut found =
             found.filter_map(|found| found.filter(|of| matches!(of, ClosedPart::Nearest(..))));
         found.next().or_else(|| self.closed(part, &[]))
-    }
-
-    /// True if the numbers of a part leave it open, but not by more than rounding explains.
-    fn is_rounded(&self, part: &LinkedLoops) -> Option<bool> {
-        let places: Vec<usize> = part.numbers.iter().copied().collect();
-        let (named, numbers) = self.named(&places, &[])?;
-        let bundle = Bundle::new(&named, part.held(&named), &numbers).only(&part.closures);
-        Some(RoundedDirections::new(&bundle, &named, &bundle.file(), false).is_some())
     }
 
     /// The mechanism in which literals are parameters, these with the most that each is off, and others have given values.
@@ -316,6 +306,13 @@ impl Numbers<'_> {
             rounded,
         ))))
     }
+}
+
+/// True if the numbers of a part, among those of a mechanism, leave it open, but not by more than rounding explains.
+fn is_rounded(named: &Mechanism, part: &LinkedLoops, numbers: &[(usize, f64)]) -> bool {
+    let own: Vec<(usize, f64)> = part.numbers.iter().map(|&k| numbers[k]).collect();
+    let bundle = Bundle::new(named, part.held(named), &own).only(&part.closures);
+    RoundedDirections::new(&bundle, named, &bundle.file(), false).is_some()
 }
 
 impl RoundedDirections<'_> {

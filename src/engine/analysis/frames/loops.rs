@@ -124,9 +124,10 @@ fn proposed(
     balls: &BTreeSet<usize>,
 ) -> Result<(Vec<BTreeSet<usize>>, bool), Vec<Problem>> {
     let number = graph.loops(|j| !balls.contains(&j));
-    let driven = axes.driven();
+    let (driven, leading) = (axes.driven(), axes.leading());
+    let stays = |j: usize| driven[j] || leading.contains(&*axes.joints[j].name.value);
     let free: Vec<usize> = (0..axes.joints.len())
-        .filter(|j| !balls.contains(j) && !driven[*j] && !axes.leads(&axes.joints[*j].name.value))
+        .filter(|&j| !balls.contains(&j) && !stays(j))
         .collect();
     let mut found = Vec::new();
     let mut choices = 0;

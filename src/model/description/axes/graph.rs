@@ -1,12 +1,13 @@
 //! Bodies and the joints between them: which joints are driven, and which are cut.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeSet, HashSet, VecDeque};
 
 use super::{AxesDescription, AxisDescription, AxisKind};
 use crate::description::{
     AxesProblem, GROUND, Named, Problem, Role, Spanned, first_free, names_of, nearest, place_of,
     unless,
 };
+use crate::linear::{join, root};
 use crate::number::sorting::sort_by_key;
 
 /// Bodies and the joints between them.
@@ -124,16 +125,14 @@ impl Graph {
 
     /// For each body a body of the part it belongs to, the parts being held together by some joints.
     pub fn parts(&self, joins: impl Fn(usize) -> bool) -> Vec<usize> {
-        let mut part: Vec<usize> = (0..self.bodies.len()).collect();
-        for (joint, &[a, b]) in self.ends.iter().enumerate() {
-            if joins(joint) && part[a] != part[b] {
-                let (kept, lost) = (part[a].min(part[b]), part[a].max(part[b]));
-                part.iter_mut()
-                    .filter(|p| **p == lost)
-                    .for_each(|p| *p = kept);
-            }
+        let mut roots: Vec<usize> = (0..self.bodies.len()).collect();
+        let joints = self.ends.iter().enumerate();
+        for (_, &[a, b]) in joints.filter(|(joint, _)| joins(*joint)) {
+            join(&mut roots, a, b);
         }
-        part
+        (0..roots.len())
+            .map(|body| root(&mut roots, body))
+            .collect()
     }
 
     /// The number of independent loops that some joints close.
@@ -167,14 +166,14 @@ impl AxesDescription {
         self.joints.iter().enumerate().map(driven).collect()
     }
 
-    /// True if the value of another joint is given in terms of this one, or a coupling relates it.
-    pub fn leads(&self, name: &str) -> bool {
+    /// The names in values of joints and in couplings: joints of these names must have variables.
+    pub fn leading(&self) -> HashSet<&str> {
         let values = self.joints.iter().flat_map(|joint| &joint.value.value);
         let related = self.couplings.iter().map(|coupling| &coupling.value);
-        let mut names = values
+        let names = values
             .chain(related)
             .flat_map(|value| value.expression.names());
-        names.any(|(used, _)| used == name)
+        names.map(|(name, _)| name.as_str()).collect()
     }
 
     /// The joints that are closures whatever is chosen.
@@ -220,11 +219,11 @@ impl AxesDescription {
     /// parameters. An error if the joints that must stay close a loop.
     pub(crate) fn placed_cuts(&self, graph: &Graph) -> Result<BTreeSet<usize>, Vec<Problem>> {
         let mut cuts = self.always_cut();
-        let (driven, depths) = (self.driven(), graph.depths());
+        let (driven, leading, depths) = (self.driven(), self.leading(), graph.depths());
         let order = |j: usize| {
             let joint = &self.joints[j].value;
             let stays =
-                driven[j] || joint.value.is_some() || self.leads(&self.joints[j].name.value);
+                driven[j] || joint.value.is_some() || leading.contains(&*self.joints[j].name.value);
             match joint.kind {
                 AxisKind::Fixed if joint.second.is_none() => 0,
                 AxisKind::Helical => 1,
@@ -240,13 +239,12 @@ impl AxesDescription {
             .filter(|j| !cuts.contains(j))
             .collect();
         sort_by_key(&mut joints, |&j| (order(j), depth(j), j));
-        let mut kept = BTreeSet::new();
+        let mut roots: Vec<usize> = (0..graph.bodies.len()).collect();
         let mut problems = Vec::new();
         for joint in joints {
-            let parts = graph.parts(|j| kept.contains(&j));
-            let [a, b] = graph.ends[joint].map(|body| parts[body]);
-            if a != b {
-                kept.insert(joint);
+            let [a, b] = graph.ends[joint];
+            if root(&mut roots, a) != root(&mut roots, b) {
+                join(&mut roots, a, b);
                 continue;
             }
             cuts.insert(joint);

@@ -210,14 +210,14 @@ impl Tables<'_> {
 
     /// The joint variables, those of cut joints left out that nothing drives, limits or follows.
     fn variables(&mut self) {
-        let driven = self.axes.driven();
+        let (driven, leading) = (self.axes.driven(), self.axes.leading());
         for (j, joint) in self.axes.joints.iter().enumerate() {
             let Named { name, value } = joint;
             let kept = !self.cuts.contains(&j)
                 || value.kind == AxisKind::Distance
                 || driven[j]
                 || value.limits.is_some()
-                || self.axes.leads(&name.value);
+                || leading.contains(&*name.value);
             if !value.is_variable() || !kept {
                 continue;
             }
