@@ -1,8 +1,17 @@
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use std::sync::Arc;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::simplicial::{
+    SimplicialLltRef, SymbolicSimplicialCholesky, factorize_simplicial_numeric_llt,
+    factorize_simplicial_numeric_llt_scratch,
+};
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::traits::ComplexField;
-use faer::{Mat, Side};
+use faer::{Conj, Mat, Par, Side};
 
 use super::{Filled, SparseStep};
 use crate::number::Field;
@@ -11,14 +20,18 @@ use crate::number::Field;
 ///
 /// Solves the normal equations (JᴴJ + λ) x = −Jᴴr by sparse Cholesky factors of a pattern analysed once, and corrects
 /// x by what is left, because normal equations square the condition number. (Orthogonal factors fill in along chains
-/// of loops.)
+/// of loops.) The factors are computed column by column: kernels for groups of columns sum in an order that depends on
+/// the width of the processor's registers.
 #[derive(Clone, Debug)]
 pub struct SparseNormal<T> {
     size: usize,
+    /// Where each unknown stands in the order of least fill-in.
+    places: Vec<usize>,
+    /// The upper triangle of JᴴJ + λ in that order.
     pattern: SymbolicSparseColMat<usize>,
     order: Argsort<usize>,
-    analysis: SymbolicLlt<usize>,
-    factors: Option<Llt<usize, T>>,
+    analysis: Arc<SymbolicSimplicialCholesky<usize>>,
+    factors: Option<Vec<T>>,
     values: Vec<T>,
     extra: Vec<T>,
     damping: f64,
@@ -28,21 +41,40 @@ pub struct SparseNormal<T> {
 
 impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     fn new(size: usize, blocks: &[Filled<T>], extra_rows: usize) -> Self {
-        let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
-        for Filled { block, .. } in blocks {
-            pairs.extend(lower(block.unknowns()).map(|(_, pair)| pair));
-        }
-        if extra_rows > 0 {
-            pairs.extend(lower(0..size).map(|(_, pair)| pair));
-        }
-        pairs.extend((0..size).map(|i| Pair { row: i, col: i }));
-        let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &pairs)
-            .expect("rows and columns are unknowns, all below the size");
-        let analysis = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower)
+        let pattern = |places: &[usize]| {
+            let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
+            for Filled { block, .. } in blocks {
+                let columns = block.unknowns().map(|unknown| places[unknown]);
+                pairs.extend(upper(columns).map(|(_, pair)| pair));
+            }
+            if extra_rows > 0 {
+                pairs.extend(upper(places.iter().copied()).map(|(_, pair)| pair));
+            }
+            pairs.extend(places.iter().map(|&i| Pair { row: i, col: i }));
+            SymbolicSparseColMat::try_new_from_indices(size, size, &pairs)
+                .expect("rows and columns are unknowns, all below the size")
+        };
+        let mut places: Vec<usize> = (0..size).collect();
+        let (natural, _) = pattern(&places);
+        let (side, order) = (Side::Upper, SymmetricOrdering::Amd);
+        let settings = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
+            ..Default::default()
+        };
+        let analysis = factorize_symbolic_cholesky(natural.as_ref(), side, order, settings)
             .expect("the pattern is square and its indices fit; only memory could lack");
+        if let Some(order) = analysis.perm() {
+            places.copy_from_slice(order.arrays().1);
+        }
+        let SymbolicCholeskyRaw::Simplicial(analysis) = analysis.raw() else {
+            unreachable!("no ratio of work to entries is above infinity");
+        };
+        let analysis = Arc::new(analysis.clone());
+        let (pattern, order) = pattern(&places);
         SparseNormal {
             size,
-            values: Vec::with_capacity(pairs.len()),
+            places,
+            values: Vec::new(),
             extra: Vec::new(),
             damping: 0.0,
             raised: false,
@@ -60,9 +92,9 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
         self.damping = damping;
         for Filled { block, entries } in blocks {
             let column = |j: usize| &entries[j * block.rows..(j + 1) * block.rows];
-            let places = lower(block.unknowns());
+            let columns = block.unknowns().map(|unknown| self.places[unknown]);
             self.values
-                .extend(places.map(|([i, j], _)| inner(column(i), column(j))));
+                .extend(upper(columns).map(|([i, j], _)| inner(column(i), column(j))));
         }
         if !extra.is_empty() {
             let size = self.size;
@@ -70,8 +102,8 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
                 let rows = extra.chunks_exact(size);
                 rows.fold(T::zero(), |sum, row| sum + row[i].conjugate() * row[j])
             };
-            self.values
-                .extend(lower(0..size).map(|([i, j], _)| product(i, j)));
+            let pairs = upper(self.places.iter().copied());
+            self.values.extend(pairs.map(|([i, j], _)| product(i, j)));
         }
         let largest = self.values.iter().fold(1.0, |m: f64, x| m.max(x.real()));
         // a freedom left makes JᴴJ singular: the least addition that can be factorised keeps the step short along it
@@ -83,7 +115,17 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
                 SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &self.values);
             self.values.truncate(filled);
             self.factors = matrix.ok().and_then(|matrix| {
-                Llt::try_new_with_symbolic(self.analysis.clone(), matrix.as_ref(), Side::Lower).ok()
+                let mut factors = vec![T::zero(); self.analysis.len_val()];
+                let scratch = factorize_simplicial_numeric_llt_scratch::<usize, T>(self.size);
+                factorize_simplicial_numeric_llt(
+                    &mut factors,
+                    matrix.as_ref(),
+                    Default::default(),
+                    &self.analysis,
+                    MemStack::new(&mut MemBuffer::new(scratch)),
+                )
+                .is_ok()
+                .then_some(factors)
             });
             self.raised = floor > damping;
             if self.factors.is_some() || floor > largest {
@@ -106,6 +148,8 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
         let Some(factors) = &self.factors else {
             return;
         };
+        let factors = SimplicialLltRef::new(&self.analysis, factors);
+        let mut memory = MemBuffer::new(self.analysis.solve_in_place_scratch::<T>(1));
         for _ in 0..=CORRECTIONS {
             let mut slope = Mat::<T>::zeros(self.size, 1);
             let mut row = 0;
@@ -117,34 +161,35 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
                     }
                 }
                 for (unknown, column) in filled.columns() {
-                    slope[(unknown, 0)] -= inner(column, &left);
+                    slope[(self.places[unknown], 0)] -= inner(column, &left);
                 }
                 row += filled.block.rows;
             }
             for (entries, &r) in self.extra.chunks_exact(self.size).zip(&r[row..]) {
                 let left = (entries.iter().zip(&*x)).fold(r, |sum, (a, x)| sum + *a * *x);
                 for (i, entry) in entries.iter().enumerate() {
-                    slope[(i, 0)] -= entry.conjugate() * left;
+                    slope[(self.places[i], 0)] -= entry.conjugate() * left;
                 }
             }
             for (i, x) in x.iter().enumerate() {
-                slope[(i, 0)] -= x.scale(self.damping);
+                slope[(self.places[i], 0)] -= x.scale(self.damping);
             }
-            factors.solve_in_place(slope.as_mut());
+            let stack = MemStack::new(&mut memory);
+            factors.solve_in_place_with_conj(Conj::No, slope.as_mut(), Par::Seq, stack);
             for (i, x) in x.iter_mut().enumerate() {
-                *x += slope[(i, 0)];
+                *x += slope[(self.places[i], 0)];
             }
         }
     }
 }
 
-/// Pairs [i, j] of columns whose product is on or below the diagonal, with its row and column.
-fn lower(
+/// Pairs [i, j] of columns whose product is on or above the diagonal, with its row and column.
+fn upper(
     columns: impl Iterator<Item = usize> + Clone,
 ) -> impl Iterator<Item = ([usize; 2], Pair<usize, usize>)> {
     let other = columns.clone().enumerate();
     columns.enumerate().flat_map(move |(j, col)| {
-        let rows = other.clone().filter(move |&(_, row)| row >= col);
+        let rows = other.clone().filter(move |&(_, row)| row <= col);
         rows.map(move |(i, row)| ([i, j], Pair { row, col }))
     })
 }
