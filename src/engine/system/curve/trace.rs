@@ -1,5 +1,7 @@
 //! A curve of configurations followed from a place on it, in a box and within limits.
 
+use std::f64::consts::TAU;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Curve, Driven};
@@ -169,7 +171,8 @@ impl Region<'_> {
         let mut places = vec![start.clone()];
         let mut crossings = Vec::new();
         let mut place = start.clone();
-        let (mut length, mut gone) = (0.1 * method.longest, 0.0);
+        // the ways gone by configurations, and by whole points
+        let (mut length, mut gone, mut gone_in_all) = (0.1 * method.longest, 0.0, 0.0);
         // whether no crossing was found ahead of the place
         let mut none_ahead = false;
         for _ in 0..STEPS {
@@ -200,6 +203,11 @@ impl Region<'_> {
                 },
             };
             gone += norm(&curve.apart(&place.at, &to.at));
+            gone_in_all += norm(&curve.difference(&place.at, &to.at));
+            // a unit vector of two or more motions has turned all round at one configuration
+            if gone < SAME && gone_in_all > TAU {
+                return (places, LocusEnd::Closed, crossings);
+            }
             let (before, after) = (
                 self.margins(C::configuration(&place.at)),
                 self.margins(C::configuration(&to.at)),
