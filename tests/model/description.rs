@@ -137,18 +137,18 @@ fn a_single_mistake_is_a_single_problem() {
 
 #[test]
 fn large_texts_are_answered_in_time() {
-    let size = 1 << 20;
+    let size = 1 << 19;
     let fill = |start: &str, unit: &str, end: &str| {
         let count = (size - start.len() - end.len()) / unit.len();
         format!("{start}{}{end}", unit.repeat(count))
     };
     let start = "Mechanism(version: 1, name: \"x\", convention: Modified, ";
-    let numbered: String = (0..40_000)
+    let numbered: String = (0..20_000)
         .map(|i| format!("\"p{i}\": \"q{i}\", "))
         .collect();
     // chains on unknown frames, each name given three times
-    let mounted: String = (0..12_000)
-        .map(|i| format!("\"c{}\":Chain(on:\"u{i}\",rows:[(d:\"q{i}\")]),", i % 4000))
+    let mounted: String = (0..6000)
+        .map(|i| format!("\"c{}\":Chain(on:\"u{i}\",rows:[(d:\"q{i}\")]),", i % 2000))
         .collect();
     let texts = [
         fill("", "(", ""),
@@ -200,10 +200,7 @@ fn large_texts_are_answered_in_time() {
         let spent = begin.elapsed();
         let beginning: String = text.chars().take(90).collect();
         // no measurement but an alarm, far above any load and below what grows as the square
-        assert!(
-            spent < Duration::from_secs(100),
-            "{spent:?} for {beginning}"
-        );
+        assert!(spent < Duration::from_secs(25), "{spent:?} for {beginning}");
     }
 }
 
