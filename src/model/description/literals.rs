@@ -96,38 +96,52 @@ const NOTHING: f64 = 1e-8;
 pub fn roundings(literals: &[Literal], length: f64) -> Vec<Option<f64>> {
     /// One long number with fewer decimals has lost a zero.
     const SEVERAL: usize = 2;
-    let is_alike = |a: &Literal, b: &Literal| a.unit == b.unit && a.measure == b.measure;
-    let rounded = |of: &Literal| of.written != 0.0 && digits(of.written).0 < ALL_DIGITS;
+    let rounded = |of: &Literal| {
+        Some(digits(of.written)).filter(|(n, _)| *n < ALL_DIGITS && of.written != 0.0)
+    };
+    // the digits of all numbers of one kind and unit
+    let mut kinds: Vec<(&Literal, Vec<(i32, i32)>)> = Vec::new();
+    let kind_of = literals.iter().map(|of| {
+        let alike =
+            |(other, _): &(&Literal, _)| other.unit == of.unit && other.measure == of.measure;
+        let kind = kinds.iter().position(alike).unwrap_or(kinds.len());
+        if kind == kinds.len() {
+            kinds.push((of, Vec::new()));
+        }
+        kinds[kind].1.extend(rounded(of));
+        kind
+    });
+    let kind_of: Vec<usize> = kind_of.collect();
+    // most digits, the last decimal, and true if several long numbers have fewer decimals
+    let longest = |(_, alike): &(_, Vec<(i32, i32)>)| {
+        let most = alike.iter().map(|(count, _)| *count).max()?;
+        let last = alike.iter().map(|(_, power)| *power).min()?;
+        let is_long = |(count, power): &&(i32, i32)| *count >= most - 1 && *power > last;
+        Some((most, last, alike.iter().filter(is_long).count() >= SEVERAL))
+    };
+    let kinds: Vec<Option<(i32, i32, bool)>> = kinds.iter().map(longest).collect();
     let scale = |of: &Literal| match of.measure {
         Measure::Length | Measure::Open => length,
         _ => 1.0,
     };
-    let off = |of: &Literal| {
+    let off = |(of, kind): (&Literal, usize)| {
         let size = of.value().abs();
         if size > 0.0 && size < NOTHING * scale(of) {
             return Some(size);
         }
-        let alike = literals.iter();
-        let alike = alike.filter(|other| is_alike(of, other) && rounded(other));
-        let alike: Vec<(i32, i32)> = alike.map(|other| digits(other.written)).collect();
-        let most = alike.iter().map(|(count, _)| *count).max()?;
-        let last = alike.iter().map(|(_, power)| *power).min()?;
-        let is_long = |(count, power): &&(i32, i32)| *count >= most - 1 && *power > last;
-        let power = match of.written {
+        let (most, last, several) = kinds[kind]?;
+        let power = match rounded(of) {
             _ if most <= CHOSEN => return None,
-            0.0 if of.in_vector => last,
-            x if x == 0.0 || !rounded(of) => return None,
-            x if alike.iter().filter(is_long).count() >= SEVERAL => {
-                let (count, own) = digits(x);
-                own.min(last.max(own + count - most))
-            }
-            _ => last,
+            None if of.written == 0.0 && of.in_vector => last,
+            None => return None,
+            Some((count, own)) if several => own.min(last.max(own + count - most)),
+            Some(_) => last,
         };
         let off = 0.5 * 10.0_f64.powi(power) * of.size();
         let beside = off / scale(of);
         (1e-15..COARSE / 2.0).contains(&beside).then_some(off)
     };
-    literals.iter().map(off).collect()
+    literals.iter().zip(kind_of).map(off).collect()
 }
 
 /// The most by which numbers of a text below 1, or about 1 where these are off by more, are off, from those with most
