@@ -18,7 +18,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat};
 
-use crate::algebra::Measure;
+use crate::algebra::{LARGEST_BARE, Measure};
 use crate::analysis::convert::to_axes;
 use crate::ask::{AskError, Points, Study, Unreached};
 use crate::description::{Description, FileError, Role};
@@ -137,8 +137,6 @@ impl PythonMechanism {
     /// The mechanism with other values of parameters, where they are plain numbers; none where the text has to be read
     /// again, which also says what is wrong.
     fn with_parameters(&self, parameters: &Bound<'_, PyDict>) -> Option<PythonMechanism> {
-        /// A larger angle needs a unit, which the reader of texts asks for.
-        const TWO_TURNS: f64 = 12.0;
         let known = self.mechanism.parameters();
         let mut set = self.set.clone();
         let mut given = Vec::with_capacity(parameters.len());
@@ -151,7 +149,7 @@ impl PythonMechanism {
                 value.value(),
                 known.iter().position(|of| *of.name == *name)?,
             );
-            if value.abs() > TWO_TURNS && known[place].measure != Measure::Length {
+            if value.abs() > LARGEST_BARE && known[place].measure != Measure::Length {
                 return None;
             }
             given.push((place, value));

@@ -11,6 +11,7 @@ use linkwork::description::{
 };
 use linkwork::interchange::{ImportError, ImportSettings, Remark, load_beside};
 use linkwork::mechanism::{Configuration, Mechanism, Rounding};
+use linkwork::number::tolerance::SAME;
 use linkwork::output::diagnostics;
 use linkwork::output::rounding::sentence;
 use linkwork::solve::Watch;
@@ -244,8 +245,6 @@ fn within(
     mut found: Configuration<f64>,
     part: f64,
 ) -> Option<FoundHome> {
-    /// So near to a limit a joint is at it, in rad or m.
-    const AT: f64 = 1e-6;
     let mut moved = Vec::new();
     for _ in 0..=mechanism.joints().len() {
         let joints = mechanism.joints().iter().zip(&found.joints);
@@ -253,7 +252,7 @@ fn within(
             let (low, high) = joint.limits?;
             let margin = part * (high - low);
             let to = value.clamp(low + margin, high - margin);
-            (*value < low - AT || *value > high + AT).then_some((joint.role, &joint.name, to))
+            (*value < low - SAME || *value > high + SAME).then_some((joint.role, &joint.name, to))
         });
         // what is driven is held anyway
         let beyond = beyond.min_by_key(|(role, ..)| *role != Role::Actuated);

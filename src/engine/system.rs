@@ -31,7 +31,7 @@ pub use crate::mechanism::{
 };
 pub use balance::{Balance, Instant};
 pub use bearing::{Bearings, Carried};
-pub use branch::{BRANCH_CHANGE, BRANCH_STEP};
+pub use branch::BRANCH_CHANGE;
 pub(crate) use bundle::SideRows;
 pub use bundle::{Arrow, Bundle, Bundled, Closer, Copies, PathForm, Target, TargetError};
 pub use closed_form::{Branching, ClosedSolution, Rule, Step};
@@ -66,7 +66,7 @@ pub use search::{
 };
 pub use sets::sets_of_angles;
 pub use tangent::{
-    Cone, Driving, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting, Lock, Locked,
-    LoopPart, MechanismLoop, Motion, Neighbourhood, RegularFreedoms, STILL, Screw, Tangent, Twist,
-    TwistSpace, combination, loops, moving, spin_lines, without, wrench_screws,
+    Cone, Driving, FINITE_STEP, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting,
+    Lock, Locked, LoopPart, MechanismLoop, Motion, Neighbourhood, RegularFreedoms, SET_STEP, Screw,
+    Tangent, Twist, TwistSpace, combination, loops, moving, spin_lines, without, wrench_screws,
 };

@@ -23,7 +23,7 @@ mod words;
 pub use affine::{Affine, NonAffine};
 pub use arrangement::{Arranged, arrange};
 pub use evaluation::{EvaluationError, EvaluationErrorKind, LARGEST};
-pub use measure::{Measure, MeasureError, MeasureErrorKind};
+pub use measure::{LARGEST_BARE, Measure, MeasureError, MeasureErrorKind};
 pub use parser::shown;
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};

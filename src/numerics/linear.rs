@@ -62,10 +62,9 @@ pub fn rank(singular_values: &[f64]) -> usize {
 /// singular values, largest first, and the equations the residual `left`: a singular value that vanishes at the
 /// solution is about √`left` here (Newton–Kantorovich; rows and unknowns are scaled so that curvatures are about 1).
 pub fn independent(equations: usize, singular_values: &[f64], left: f64) -> bool {
-    const SURE: f64 = 100.0;
     let left = left.max(f64::EPSILON);
     let largest = singular_values.first().copied().unwrap_or(0.0);
-    let sure = |least: f64| least > lost(largest) && least * least > SURE * left;
+    let sure = |least: f64| least > lost(largest) && least * least > 100.0 * left;
     equations == 0 || (singular_values.get(equations - 1)).is_some_and(|least| sure(*least))
 }
 

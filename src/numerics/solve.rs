@@ -29,7 +29,7 @@ pub use integrator::{Flow, Integrator, TooShort};
 pub use least_squares::{Fitted, LeastSquares, LevenbergMarquardt, Misfit};
 pub use minimum::{simplex, walk_down};
 pub use newton::{Newton, NewtonReport, Stop};
-pub use summit::{edge, halved, summit};
+pub use summit::{GOLDEN, edge, halved, summit};
 pub use threads::{Pool, each};
 pub use warm::{Trail, Warm, WarmReport};
 pub use watch::{Observer, Progress, Stage, Watch};

@@ -14,9 +14,6 @@ use crate::system::{
 };
 pub use report::{AssemblyReport, JointVariable, Outcome, RemainingFreedoms};
 
-/// A condition number above this is worth a warning: four digits of the joint values are lost.
-const POOR_CONDITION: f64 = 1e4;
-
 /// Finds the assembled configuration near the start of a question.
 ///
 /// Newton's method on the loop closure from the guess; if that fails, or ends outside the limits,
@@ -220,7 +217,8 @@ impl Reporter<'_> {
             .map(|(joint, value)| (joint.name.clone(), value));
         let mut report = AssemblyReport {
             mechanism: mechanism.name().into(),
-            near_singular: attempt.report.stop == Stop::Solved && condition > POOR_CONDITION,
+            // four digits of the joint values are lost
+            near_singular: attempt.report.stop == Stop::Solved && condition > 1e4,
             condition,
             outcome,
             steps: attempt.report.steps,

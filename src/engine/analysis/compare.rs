@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::EvaluationError;
 use crate::mechanism::{ClosedForm, Configuration, GivenForm, MatrixEntry, Mechanism};
+use crate::number::tolerance::SAME;
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::{ByName, FormulaNames};
 pub use conditions::FormDivisor;
@@ -24,10 +25,6 @@ use formula::{NamedValues, measured};
 pub use proof::{ComponentProof, Difference, Reason};
 use samples::SampleStream;
 use variables::formulas;
-
-/// The relative difference that a proved identity may show at configurations solved to a residual of 1e-12: where the
-/// closure is singular, joint values are off by the root of the residual.
-const NEAR_SINGULAR: f64 = 1e-6;
 
 /// Settings of a comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -349,9 +346,9 @@ impl<'a> Checked<'a> {
         }
         for component in components.iter_mut().filter(|c| c.worst.is_some()) {
             // what is proved may still be off by what solving leaves near singular configurations, and beside terms that
-            // all vanish there
+            // all vanish there: by the root of the residual
             let relative = component.relative;
-            let off = relative > NEAR_SINGULAR && component.max_difference > tolerance;
+            let off = relative > SAME && component.max_difference > tolerance;
             let refuted = matches!(component.proof, ComponentProof::Different(_));
             component.agree = !refuted && relative <= tolerance || component.proof.proved() && !off;
         }

@@ -21,7 +21,7 @@ mod symmetry;
 
 pub use course::{DesignCourse, course};
 pub use exact::{Exact, NotAll, Triples};
-pub use front::Costs;
+pub use front::{Costs, MISSED};
 pub use improve::Cost;
 pub use listed::Listed;
 pub use pinned::PinnedFourBar;

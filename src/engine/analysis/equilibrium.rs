@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::SAME;
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
     Analysed, AssemblySettings, ByName, Coordinate, Dynamics, GivenPose, Load, Neighbourhood,
@@ -279,7 +280,6 @@ impl<'a> Start<'a> {
 
     /// True if two rest positions are one: every joint is, angles modulo a turn, and every platform.
     fn is_same(&self, a: &RestPosition, b: &RestPosition) -> bool {
-        const SAME: f64 = 1e-5;
         let length = self.mechanism.characteristic_length();
         let joints = self.mechanism.joints().iter();
         let values = a.joints.values().zip(b.joints.values());

@@ -16,13 +16,14 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::linear::{Decomposition, axis_aligned};
 use crate::mechanism::{Configuration, Mechanism, Variable};
+use crate::number::tolerance::STILL;
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, AssemblySettings, Coordinate, Held, HeldPlatform, Lasting, Neighbourhood, Question,
-    STILL, Unknown, random_configuration,
+    Analysed, AssemblySettings, Coordinate, FINITE_STEP, Held, HeldPlatform, Lasting,
+    Neighbourhood, Question, Unknown, random_configuration,
 };
 
-use branches::{FiniteSearch, STEP};
+use branches::FiniteSearch;
 pub use loops::LoopCount;
 pub use redundancy::{Redundancy, RedundantWrench};
 pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityReport};
@@ -78,7 +79,7 @@ pub fn mobility(
         rng: Pcg64Mcg::seed_from_u64(settings.seed),
     };
     let beside = match unlocked {
-        None if locked.is_empty() || search.is_regular(&tangent, STEP, 3) => None,
+        None if locked.is_empty() || search.is_regular(&tangent, FINITE_STEP, 3) => None,
         None => search.regular_beside(&tangent),
         unlocked => unlocked,
     };
@@ -96,9 +97,8 @@ pub fn mobility(
             .collect()
     };
     let moving_joints = moving(&found.moved);
-    /// Components of a unit motion below this come from another one, mixed in.
-    const MIXED: f64 = 1e-2;
-    let turns = |i: usize| locked.iter().any(|motion| motion[i].abs() > MIXED);
+    // smaller components of a unit motion come from another one, mixed in
+    let turns = |i: usize| locked.iter().any(|motion| motion[i].abs() > 1e-2);
     let gimbal_locked_joints = moving(&(0..unknowns).map(turns).collect::<Vec<bool>>());
     let branches = (found.branches.iter())
         .map(|branch| BranchReport {
@@ -153,7 +153,7 @@ pub fn mobility(
         twists: near.twist_spaces(&tangent.at, &tangent.motions, &tangent.idle),
         condition: tangent.decomposition.condition(),
         singular_at: match found.character {
-            Character::Regular if beside.is_none() => near.singular_within(&tangent, STEP),
+            Character::Regular if beside.is_none() => near.singular_within(&tangent, FINITE_STEP),
             _ => None,
         },
         neglected: match found.character {
@@ -179,11 +179,10 @@ pub fn mobility(
 /// The largest singular value beyond the rank, relative to the largest, if no rounding of a double solution explains
 /// it.
 fn neglected(of: &Decomposition) -> Option<f64> {
-    /// Joints of a double solution are uncertain by the root of its residual, which is rounding.
-    const UNCERTAIN: f64 = 2e-8;
     let values = of.singular_values();
     let part = values.get(of.rank())? / values.first()?;
-    (part > UNCERTAIN).then_some(part)
+    // joints of a double solution are uncertain by the root of its residual, which is rounding
+    (part > f64::EPSILON.sqrt()).then_some(part)
 }
 
 /// Random starts from which assemblies of another mobility are sought.
@@ -219,7 +218,7 @@ fn elsewhere(
             continue;
         }
         // a random start meets a singular point with probability zero, a shaky assembly it may meet
-        if freedoms > 0 && !search.is_regular(&tangent, STEP, 2) {
+        if freedoms > 0 && !search.is_regular(&tangent, FINITE_STEP, 2) {
             continue;
         }
         found.push(Elsewhere {

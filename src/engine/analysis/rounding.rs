@@ -20,7 +20,7 @@ use std::path::Path;
 use crate::algebra::Measure;
 use crate::description::{Description, Literal, LoadError, Problem, roundings};
 use crate::mechanism::{Configuration, Mechanism, NumberChange, Rounded, Rounding};
-use crate::number::tolerance::SOLVED;
+use crate::number::tolerance::{EXACT, ROUNDING, SOLVED, SUMMED};
 use crate::solve::{LeastSquares, LevenbergMarquardt};
 use crate::system::{Bundle, Bundled, Gap};
 use explained::least_largest;
@@ -30,9 +30,6 @@ use walk::RoundedDirections;
 
 /// Changes up to so many roundings are explained by them: half a unit of the last digit, and what arithmetic adds.
 const EXPLAINED: f64 = 1.05;
-
-/// Beyond so many nothing of it is rounding; between the two it is not decided.
-const BEYOND: f64 = 1.5;
 
 /// The most unknowns of loops that are looked at together: each singular value decomposition grows as their cube.
 const MOST_UNKNOWNS: usize = 150;
@@ -237,7 +234,8 @@ impl Numbers<'_> {
             let largest = change.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             if largest > EXPLAINED {
                 match least_largest(&rows, &change) {
-                    least if least > BEYOND => return None,
+                    // between the two it is not decided
+                    least if least > 1.5 => return None,
                     least if least > EXPLAINED => return Some(ClosedPart::Undecided(least)),
                     _ => {}
                 }
@@ -263,21 +261,16 @@ impl Numbers<'_> {
 
     /// The file with other numbers.
     fn changed(&self, mut values: Vec<(usize, f64)>, gap: Gap) -> Option<FoundClosing> {
-        /// A change of this part of the rounding is none: it comes from the arithmetic.
-        const NONE: f64 = 1e-6;
-        /// Unless loops would stay open by it, in m or rad.
-        const LEAST: f64 = 1e-13;
-        /// So is what is left of a number, beside the least that would be seen.
-        const NOTHING: f64 = 1e-15;
         values.iter_mut().for_each(|(_, to)| {
-            if to.abs() < NOTHING {
+            if to.abs() < EXACT {
                 *to = 0.0;
             }
         });
         let is_changed = |(literal, to): &(usize, f64)| {
             let (of, off) = (&self.literals[*literal], self.off[*literal].unwrap_or(0.0));
             let change = (to - of.value()).abs();
-            change > (NONE * off).min(LEAST) && change > 4.0 * f64::EPSILON * of.value().abs()
+            // a millionth of the rounding comes from the arithmetic, unless loops would stay open by it
+            change > (1e-6 * off).min(SUMMED) && change > 4.0 * f64::EPSILON * of.value().abs()
         };
         values.retain(is_changed);
         values.sort_by_key(|(literal, _)| *literal);
@@ -325,9 +318,6 @@ impl RoundedDirections<'_> {
         configurations: &[Configuration<f64>],
     ) -> Option<(Bundled, Vec<f64>, Vec<Vec<f64>>)> {
         const ROUNDS: usize = 10;
-        /// A condition counts that is larger than what is left, by this factor; a tenth of the last that counted at first.
-        const TOLD_APART: f64 = 30.0;
-        const LEAST: f64 = 1e-9;
         /// Steps taken although they may lead away.
         const AHEAD: usize = 4;
         let mut at = Bundled {
@@ -368,7 +358,8 @@ impl RoundedDirections<'_> {
                 let rows = nearest.model(&at)?.rows();
                 return Some((at, change, rows));
             }
-            let nearer = (TOLD_APART * left).max(LEAST).max(0.1 * cut);
+            // a condition counts that is clearly larger than what is left; a tenth of the last that counted at first
+            let nearer = (30.0 * left).max(ROUNDING).max(0.1 * cut);
             if nearer >= cut {
                 return None;
             }

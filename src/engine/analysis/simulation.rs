@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, add, dot};
 use crate::mechanism::{Configuration, Point};
-use crate::number::tolerance::ROUNDING;
+use crate::number::tolerance::{ROUNDING, STILL};
 use crate::solve::Watch;
 use crate::system::{
     Analysed, AssemblySettings, Coordinate, Drive, Dynamics, GivenPose, Load, NamedUnit,
@@ -333,7 +333,7 @@ fn massless(dynamics: &mut Dynamics) -> Result<Vec<String>, NoSimulation> {
     let moves = |i: usize| {
         motions
             .iter()
-            .any(|motion: &Vec<f64>| motion[i].abs() > 1e-6)
+            .any(|motion: &Vec<f64>| motion[i].abs() > STILL)
     };
     let coordinates = dynamics.coordinates().iter().enumerate();
     let names = coordinates.filter(|(i, _)| moves(*i));

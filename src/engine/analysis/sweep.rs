@@ -44,6 +44,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
+use crate::number::tolerance::{ROUNDING, SAME};
 use crate::solve::{Continuation, CurvePoint, Progress, Stage, Watch};
 pub use crate::system::SweepEnd;
 use crate::system::{Bound, Curve, Driven, Event, Held, Walk};
@@ -285,7 +286,7 @@ pub fn sweep(
         for (place, event) in &events {
             // a turn of the inputs closes the curve and is not the end of the sweep
             if let Event::Closed = event
-                && curve.part(&place.at).abs() > 1e-9
+                && curve.part(&place.at).abs() > ROUNDING
             {
                 continue;
             }
@@ -334,7 +335,7 @@ pub fn sweep(
         }
         length = leg.gone_at(curve, &leg.to);
         // an end that was passed unseen is worse than one that was not reached
-        match (-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
+        match (-SAME..=1.0 + SAME).contains(&curve.part(&leg.to.at)) {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(SweepEnd::Lost),
         }

@@ -8,7 +8,7 @@ use crate::analysis::sweep::{CircuitsReport, CircuitsSettings, Slice, Swept, cir
 use crate::description;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, turn_near};
 use crate::number::tolerance::SAME;
-use crate::solve::{Stage, Watch};
+use crate::solve::{GOLDEN, Stage, Watch};
 use crate::system::{self, Coordinate, check_count, sampling_range};
 
 impl Question {
@@ -48,7 +48,8 @@ impl Question {
                     values = gaps.clone().map(|[from, to]| 0.5 * (from + to)).collect();
                     let before = uncovered;
                     uncovered = gaps.map(|[from, to]| to - from).sum();
-                    let most = settings.slices.len() >= MOST_SLICES || uncovered > GAINED * before;
+                    // more are looked at as long as less than 0.8 of what was uncovered is left
+                    let most = settings.slices.len() >= MOST_SLICES || uncovered > 0.8 * before;
                     if values.is_empty() || most || watch.is_stopped() {
                         break report;
                     }
@@ -171,12 +172,6 @@ fn sliced<'q>(
     }
 }
 
-/// The distance to which slides are followed in the search for circuits, in characteristic lengths.
-const REACH: f64 = 5.0;
-
-/// More values are looked at as long as they leave no more than this part of what was uncovered.
-const GAINED: f64 = 0.8;
-
 /// Values at most at which all configurations are found.
 const MOST_SLICES: usize = 12;
 
@@ -190,11 +185,10 @@ fn unit(mechanism: &Mechanism, joint: usize) -> f64 {
 
 /// A value of a joint that is not special, near home for one that does not come back.
 fn beside_home(mechanism: &Mechanism, joint: usize) -> f64 {
-    const PART: f64 = 0.381_966;
     let home = mechanism.home().joints[joint];
     match mechanism.turns_to_repeat(joint) {
-        Some(_) => turn_near(home + PART * TAU, 0.0),
-        None => home + 0.1 * PART * unit(mechanism, joint),
+        Some(_) => turn_near(home + GOLDEN * TAU, 0.0),
+        None => home + 0.1 * GOLDEN * unit(mechanism, joint),
     }
 }
 
@@ -228,7 +222,8 @@ fn slice(
     Slice {
         joint,
         value,
-        reach: REACH * unit(mechanism, joint),
+        // so far slides are followed
+        reach: 5.0 * unit(mechanism, joint),
         real,
         complex: (complex.iter().map(|at| at.configuration(mechanism))).collect(),
         freedoms: match report.fit {

@@ -304,7 +304,7 @@ pub enum Unmeasured {
     /// A speed or a load of a motion follows from what is not known before it is.
     #[error("it follows from {what} alone")]
     Follows {
-        /// What may give it.
+        /// The quantities from which it may follow.
         what: &'static str,
     },
     /// Nothing is loaded.

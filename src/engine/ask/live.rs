@@ -90,8 +90,6 @@ impl Steering {
     /// # Errors
     /// If something is held that cannot be.
     pub fn gained(&self, watch: &Watch) -> Result<Option<Gained>, AskError> {
-        /// Amplitude of the swings, in rad or characteristic lengths, of the component that moves most.
-        const SWING: f64 = 0.25;
         /// Configurations to either side.
         const PHASES: i32 = 6;
         let there = self.where_stopped();
@@ -106,7 +104,8 @@ impl Steering {
         let swings = motions.iter().map(|motion| {
             let most = motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             let phase = |k: i32| {
-                let part = SWING * f64::from(k) / f64::from(PHASES) / most;
+                // the component that moves most swings by 0.25 rad or characteristic lengths
+                let part = 0.25 * f64::from(k) / f64::from(PHASES) / most;
                 let step: Vec<f64> = motion.iter().map(|x| x * part).collect();
                 system.displaced(there.at(), &step)
             };

@@ -59,7 +59,6 @@ impl Question {
         examples: &[SampleAnswer],
         watch: &Watch,
     ) -> Result<Vec<SampleForces>, AskError> {
-        const TIME: f64 = 0.25;
         let (question, _) = self.posed(watch)?;
         let load = self.load_of(&question)?;
         let driven = examples.iter().enumerate().map(|(k, (inputs, state))| {
@@ -67,7 +66,7 @@ impl Question {
             let number = |i: usize, of: f64| real::sin(of + (3 * i + k) as f64);
             let [rates, changes]: [Vec<f64>; 2] =
                 [1.0, 2.0].map(|of| (0..inputs.len()).map(|i| number(i, of)).collect());
-            let found = forces(&question, &load, (inputs, state), [&rates, &changes], TIME);
+            let found = forces(&question, &load, (inputs, state), [&rates, &changes], 0.25);
             [rates, changes, found.unwrap_or_default()]
         });
         Ok(driven.collect())
@@ -79,14 +78,11 @@ impl Question {
     /// # Errors
     /// As for [`solver_program`](Self::solver_program).
     pub fn examples(&self, count: usize, watch: &Watch) -> Result<Vec<SampleAnswer>, AskError> {
-        /// Amplitudes to begin with, in rad and in characteristic lengths.
-        const WIDEST: f64 = 0.3;
-        /// The most of it for one configuration, so that each is near the one before it however few there are.
-        const PER_STEP: f64 = 0.003;
         /// Number of times they are halved if the mechanism cannot follow.
         const HALVINGS: usize = 8;
         let (question, start) = self.posed(watch)?;
-        let mut amplitude = WIDEST.min(PER_STEP * count as f64);
+        // in rad and characteristic lengths; each is near the one before it however few there are
+        let mut amplitude = 0.3_f64.min(0.003 * count as f64);
         let mut found = Vec::new();
         for _ in 0..HALVINGS {
             found = follow(&question, &start, amplitude, count);
@@ -116,8 +112,6 @@ fn follow(
     amplitude: f64,
     count: usize,
 ) -> Vec<SampleAnswer> {
-    /// The farthest that a joint moves from one to the next, in rad and characteristic lengths.
-    const FARTHEST: f64 = 0.3;
     let mechanism = question.mechanism();
     let held = question.held();
     let joints = (0..held.joints.len()).filter(|joint| held.joints[*joint]);
@@ -145,7 +139,7 @@ fn follow(
         let moved = a.joints.iter().zip(&b.joints).map(|(a, b)| (a - b).abs());
         moved
             .zip(&mechanism.dimensions().joint_scales)
-            .any(|(moved, scale)| moved > FARTHEST * scale)
+            .any(|(moved, scale)| moved > 0.3 * scale)
     };
     let outside = |at: &Configuration<f64>| mechanism.outside_limits(&at.joints).count();
     let watch = Watch::none();

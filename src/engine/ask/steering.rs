@@ -28,10 +28,6 @@ pub struct Steering {
     crossed: bool,
 }
 
-/// Before a dead point a motion stops at least this far away, in rad or characteristic lengths: the rest of the mechanism,
-/// which goes by the square root, is then a thousandth away from it, where the branch is still unique.
-const BEFORE: f64 = 1e-6;
-
 impl Question {
     /// The mechanism assembled near the start, or in the mode asked for, ready to be moved by its held coordinates. If
     /// too little is held, or something that depends on the rest, this is corrected.
@@ -219,7 +215,8 @@ impl Steering {
                 };
                 let size = inputs.iter().map(size).fold(0.0, f64::max);
                 // a long step sees the end and the dead point behind it as one: from farther away it does not
-                let mut before = BEFORE / size;
+                // the rest of the mechanism, which goes by the square root, is then a thousandth away, where the branch is unique
+                let mut before = 1e-6 / size;
                 while before < part {
                     let nearer = inputs.iter().map(|input| Driven {
                         to: input.at(part - before),

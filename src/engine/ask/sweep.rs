@@ -8,6 +8,7 @@ use crate::analysis::quantities::{Metered, Motions};
 use crate::analysis::sweep::{CircuitsReport, Sink, SweepReport, SweepSettings, sweep};
 use crate::description;
 use crate::mechanism::Configuration;
+use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
 use crate::system::{self, Coordinate, Driven, QuestionError, check_count, moved};
 
@@ -48,7 +49,7 @@ impl Question {
         let angle = |input: &&Driven| {
             input.coordinate.platform().is_some() && input.coordinate.is_angle(mechanism)
         };
-        let wide = |input: &&Driven| (input.to - input.from).abs() > TAU * (1.0 + 1e-12);
+        let wide = |input: &&Driven| (input.to - input.from).abs() > TAU * (1.0 + ROUNDING);
         if let Some(input) = inputs.iter().filter(angle).find(wide) {
             return Err(AskError::MoreThanATurn(input.coordinate.name(mechanism)));
         }

@@ -6,6 +6,7 @@ use super::ranges::{middles, of_platform};
 use super::{AskError, Mode, Question, Role, check_starts};
 use crate::analysis::workspace::{WorkspaceReport, WorkspaceSettings, cell_bytes, workspace};
 use crate::mechanism::Configuration;
+use crate::number::tolerance::ROUNDING;
 use crate::solve::Watch;
 use crate::system::{
     self, Coordinate, Driven, QuestionError, RESTARTS, RegularFreedoms, TooLarge, check_count,
@@ -112,7 +113,7 @@ impl Question {
             Coordinate::Joint(joint) => mechanism.repeats(joint),
             of => of.is_angle(mechanism),
         };
-        let round = |axis: &&Driven| turns(axis) && axis.to - axis.from > TAU * (1.0 + 1e-9);
+        let round = |axis: &&Driven| turns(axis) && axis.to - axis.from > TAU * (1.0 + ROUNDING);
         if let Some(axis) = axes.iter().find(round) {
             return Err(AskError::MoreThanATurn(axis.coordinate.name(mechanism)));
         }

@@ -6,6 +6,7 @@ use super::{FrameTwists, Load, Motion};
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{Carrier, Configuration, Frame, Friction, Kinematics, Mechanism, Worker};
+use crate::number::tolerance::{CANCELLED, ROUNDING};
 use crate::number::{Dual, Number};
 
 /// The forces that drive a mechanism so that it moves as it does, by d'Alembert: loads, weights, springs and the
@@ -238,15 +239,12 @@ impl<T: Factorable> Balance<T> {
     /// Where a joint turns back, the friction is that just before.
     fn rub(&mut self, motion: &mut Motion<T>, rates: &[T], sign: f64) -> Vec<T> {
         const STEPS: usize = 40;
-        const SETTLED: f64 = 1e-14;
-        /// Slower joints than this part of the fastest are at rest.
-        const AT_REST: f64 = 1e-12;
         let changes = match self.changes {
             true => motion.known()[1].to_vec(),
             false => vec![T::zero(); rates.len()],
         };
         let largest = |of: &[T]| of.iter().map(|x| x.real().abs()).fold(0.0, f64::max);
-        let [still, steady] = [rates, &changes].map(|of| AT_REST * largest(of));
+        let [still, steady] = [rates, &changes].map(|of| ROUNDING * largest(of));
         let sign_of = |friction: &Friction| {
             let rate = rates[friction.joint].real() * sign;
             let change = changes[friction.joint].real();
@@ -325,7 +323,7 @@ impl<T: Factorable> Balance<T> {
                 }
             }
             let largest = efforts.amax().max(gap.amax());
-            if gap.amax() <= SETTLED * largest || largest == 0.0 {
+            if gap.amax() <= CANCELLED * largest || largest == 0.0 {
                 settled = true;
                 break;
             }

@@ -3,14 +3,12 @@
 use super::{System, SystemWork};
 use crate::linear::{DENSE_LIMIT, norm, relative_change};
 use crate::mechanism::Configuration;
+use crate::number::tolerance::LONGEST_STEP;
 use crate::solve::Equations;
 
 /// Largest ‖J⁻¹(J₀ − J)‖ between two solutions for which they are on one branch. Where rows are quadratic, two
 /// solutions for the same held values differ by 2 at least.
 pub const BRANCH_CHANGE: f64 = 0.5;
-
-/// Longest step, in rad and characteristic lengths, whose ends tell what is between them.
-pub const BRANCH_STEP: f64 = 0.5;
 
 impl System<f64> {
     /// True if a solution is certainly on the branch of another one for held values near by: the Jacobian J at it and
@@ -24,7 +22,7 @@ impl System<f64> {
     ) -> bool {
         let back = self.difference(to, from);
         let way = norm(&back);
-        if way.is_nan() || way > BRANCH_STEP {
+        if way.is_nan() || way > LONGEST_STEP {
             return false;
         }
         if back.len() > DENSE_LIMIT {

@@ -34,6 +34,7 @@ pub use target::{Target, TargetError};
 
 use crate::linear::{Factorable, RANK_TOLERANCE};
 use crate::mechanism::{Configuration, Dimensions, EVERY_ROW, Frame, Kept, Mechanism};
+use crate::number::tolerance::LONGEST_STEP;
 use crate::number::{Gradient, Number};
 use crate::solve::{Equations, LeastSquares, Misfit};
 use crate::system::{Held, System, SystemWork};
@@ -310,11 +311,10 @@ impl LeastSquares for Bundle<'_> {
         let largest = |all: &mut dyn Iterator<Item = &f64>| all.fold(0.0f64, |m, x| m.max(x.abs()));
         let mut size = largest(&mut step.iter().chain(moves.iter().flatten()));
         if self.ranges.is_some() {
-            // what goes further than this closes elsewhere
-            const FURTHEST: f64 = 0.5;
+            // what goes further closes elsewhere
             let moved = largest(&mut moves.iter().flatten());
-            if moved > FURTHEST {
-                let factor = FURTHEST / moved;
+            if moved > LONGEST_STEP {
+                let factor = LONGEST_STEP / moved;
                 let all = step.iter_mut().chain(moves.iter_mut().flatten());
                 all.for_each(|x| *x *= factor);
                 size *= factor;

@@ -6,6 +6,7 @@ mod closing;
 use super::{Coordinate, Freedoms, Instant, Load, Motion, Still, System};
 use crate::linear::{add, dot, norm};
 use crate::mechanism::{Configuration, Friction, Mechanism, turn_near};
+use crate::number::tolerance::SUMMED;
 use chart::{Base, Chart, accelerations};
 
 /// The equations of motion of an assembled mechanism, M(q)·q̈ = Q(q, q̇, t), in independent coordinates q: joints and
@@ -67,8 +68,6 @@ pub enum NoDynamics {
 
 /// Corrections of accelerations for friction.
 const SETTLING: usize = 30;
-/// Faster than this, in rad and characteristic lengths, nothing may move for a unit rate of an independent coordinate.
-const FASTEST: f64 = 4.0;
 
 impl<'a> Dynamics<'a> {
     /// The equations near an assembled configuration with so many freedoms left by what is locked, of which the first ones
@@ -210,7 +209,8 @@ impl<'a> Dynamics<'a> {
         let mut units = units
             .map(|of| of.scale(self.mechanism))
             .zip(&self.responses);
-        let slow = units.all(|(unit, of)| largest(of) * unit <= FASTEST);
+        // nothing may move by more than 4 rad or characteristic lengths for a unit rate of an independent coordinate
+        let slow = units.all(|(unit, of)| largest(of) * unit <= 4.0);
         if slow && self.chart.leads(self.configuration()) {
             return Ok(None);
         }
@@ -390,7 +390,7 @@ impl<'a> Dynamics<'a> {
             let correction = accelerations(&mass, &left);
             let (size, change) = (norm(&found), norm(&correction));
             add(&mut found, 1.0, &correction);
-            if change <= 1e-13 * size || change == 0.0 {
+            if change <= SUMMED * size || change == 0.0 {
                 break;
             }
         }

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{Coordinate, FrameTwists, Held, Load, System};
 use crate::algebra::{Operation, OperationIndex, Recorded, needed, record, run};
 use crate::mechanism::{Configuration, JointKind, Mechanism, Point};
+use crate::number::tolerance::{RANK_TOLERANCE, ROUNDING};
 use crate::number::{C, Dual, Gradient, Number};
 use crate::solve::{Equations, Homotopy};
 use terms::terms;
@@ -330,9 +331,9 @@ impl RestEquations {
         let parameters: Vec<C> = found.iter().skip(multipliers.len()).copied().collect();
         let ([left, _], hessian) = self.at([&parameters, &none], &x, &mut values);
         // singular values of what is not a number would be sought without end
-        let solved = largest(&left) < 1e-9 && hessian.iter().all(|x| Number::is_finite(*x));
+        let solved = largest(&left) < ROUNDING && hessian.iter().all(|x| Number::is_finite(*x));
         let regular = solved.then(|| hessian.singular_values())?;
-        (regular.min() > 1e-9 * regular.max()).then_some((parameters, x))
+        (regular.min() > RANK_TOLERANCE * regular.max()).then_some((parameters, x))
     }
 
     /// The way from some parameters to others.

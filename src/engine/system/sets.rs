@@ -14,7 +14,6 @@ pub fn sets_of_angles(
     at: &Configuration<f64>,
 ) -> Vec<Configuration<f64>> {
     const STEPS: usize = 16;
-    const REACH: f64 = 1.0;
     let sets = mechanism.sets_of_angles(at);
     if sets.len() == 1 {
         return sets;
@@ -39,7 +38,7 @@ pub fn sets_of_angles(
             for (joint, angle) in &parts {
                 set.joints[*joint] += angle;
             }
-            set = near.settle(set, REACH)?;
+            set = near.settle(set, 1.0)?;
         }
         for joint in held {
             set.joints[joint] = at.joints[joint];

@@ -11,16 +11,12 @@ mod screws;
 mod shake;
 mod twists;
 
-pub use cone::{Cone, FlatSet, combination};
+pub use cone::{Cone, FlatSet, SET_STEP, combination};
 pub use driving::Driving;
 pub use freedom::{Freedoms, RegularFreedoms, moving};
 pub use locked::{Lock, Locked};
 pub use loops::{LoopPart, MechanismLoop, loops};
 pub use motion::{FrameMotion, Motion};
-pub use neighbourhood::{FiniteStep, Lasting, Neighbourhood, Tangent};
+pub use neighbourhood::{FINITE_STEP, FiniteStep, Lasting, Neighbourhood, Tangent};
 pub use screws::{Screw, TwistSpace, spin_lines, without, wrench_screws};
-/// Components of a motion of unit norm, in rad and characteristic lengths, below this are rounding: a
-/// null space is known to about [`RANK_TOLERANCE`](crate::linear::RANK_TOLERANCE), with a digit to spare.
-pub const STILL: f64 = 1e-6;
-
 pub use twists::{FrameTwists, Twist};

@@ -3,6 +3,7 @@
 use crate::description::{Entry, InertiaDescription, MassDescription, Named};
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Body, Frame, Mechanism};
+use crate::number::tolerance::ROUNDING;
 
 /// The names of moments of inertia in URDF and SDF.
 pub const MOMENTS: [&str; 6] = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
@@ -64,11 +65,9 @@ impl Heavy {
 
     /// True if a body can have it: no moment is negative or exceeds the sum of the others.
     pub fn is_possible(&self) -> bool {
-        const ROUNDING: f64 = 1e-10;
-        /// Far beyond any body, and far below what a file may say.
-        const LARGEST: f64 = 1e20;
         let numbers = self.centre.0.into_iter().chain(self.moments());
-        let fine = |x: f64| x.is_finite() && x.abs() < LARGEST;
+        // far beyond any body, and far below what a file may say
+        let fine = |x: f64| x.is_finite() && x.abs() < 1e20;
         let mut numbers = numbers.chain([self.mass]);
         if self.mass < 0.0 || !numbers.all(fine) {
             return false;

@@ -3,6 +3,7 @@
 use super::remark::Remark;
 use super::tree::{BodyMotion, Tree};
 use crate::description::ClosureKind;
+use crate::number::tolerance::SAME;
 
 /// Brings points onto one pin where all joints of their loop move parallel to a plane and the points lie apart across it: what
 /// no motion changes is how the links lie on the pin, not a gap between them. A distance beyond a part of the loop's size is
@@ -10,9 +11,6 @@ use crate::description::ClosureKind;
 pub(super) fn on_one_pin(tree: &mut Tree) -> Option<Remark> {
     /// Axes that are turned less against each other are parallel; sine of the angle.
     const PARALLEL: f64 = 1e-4;
-    /// Of the size of the loop.
-    const MOST: f64 = 0.1;
-    const NOTHING: f64 = 1e-6;
     let poses = tree.home();
     let way = |body: usize| {
         let up = std::iter::successors(Some(body), |&body| tree.bodies[body].parent);
@@ -55,7 +53,7 @@ pub(super) fn on_one_pin(tree: &mut Tree) -> Option<Remark> {
         let size = joints.fold(0.0, |most: f64, (body, joint)| {
             most.max((poses[body] * joint.point - ends[0].position).norm())
         });
-        if is_plane && across.abs() > NOTHING * size && across.abs() <= MOST * size {
+        if is_plane && across.abs() > SAME * size && across.abs() <= 0.1 * size {
             let body = part.sides[1].body;
             let shift = poses[body].rotation.inverse_rotate(&normal.times(across));
             moved.push((number, shift));

@@ -76,15 +76,8 @@ fn digits(value: f64) -> (i32, i32) {
 /// So many digits were not rounded by anyone.
 const ALL_DIGITS: i32 = 15;
 
-/// The most that a number may be off by rounding, beside the size of the mechanism, to count as rounded: fewer digits are
-/// chosen, not measured.
-const COARSE: f64 = 1.5e-3;
-
 /// So few digits are chosen, not measured.
 const CHOSEN: i32 = 3;
-
-/// Numbers below this part of the size of the mechanism are rounding, whatever their digits.
-const NOTHING: f64 = 1e-8;
 
 /// For each literal the most by which it is off if it was rounded when it was written, in m or rad or without unit; `None` if
 /// it is exact.
@@ -126,7 +119,8 @@ pub fn roundings(literals: &[Literal], length: f64) -> Vec<Option<f64>> {
     };
     let off = |(of, kind): (&Literal, usize)| {
         let size = of.value().abs();
-        if size > 0.0 && size < NOTHING * scale(of) {
+        // what is so small beside the mechanism is rounding, whatever its digits
+        if size > 0.0 && size < 1e-8 * scale(of) {
             return Some(size);
         }
         let (most, last, several) = kinds[kind]?;
@@ -139,7 +133,8 @@ pub fn roundings(literals: &[Literal], length: f64) -> Vec<Option<f64>> {
         };
         let off = 0.5 * 10.0_f64.powi(power) * of.size();
         let beside = off / scale(of);
-        (1e-15..COARSE / 2.0).contains(&beside).then_some(off)
+        // fewer digits are chosen, not measured
+        (1e-15..7.5e-4).contains(&beside).then_some(off)
     };
     literals.iter().zip(kind_of).map(off).collect()
 }

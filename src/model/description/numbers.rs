@@ -10,8 +10,7 @@ const ROUNDING: f64 = 4e-15;
 
 /// The number with at most twelve decimals that differs by no more than rounding, if there is one.
 fn short(value: f64) -> Option<f64> {
-    const DECIMALS: f64 = 1e12;
-    let shortened = (value * DECIMALS).round() / DECIMALS;
+    let shortened = (value * 1e12).round() / 1e12;
     let near = (shortened - value).abs() <= ROUNDING * value.abs().max(1.0);
     // a zero has no sign here
     near.then_some(shortened + 0.0)

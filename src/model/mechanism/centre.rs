@@ -12,10 +12,9 @@ impl Mechanism {
     /// The dimensions for given values of the parameters about a centre that is near to the bases there: the one there is,
     /// or the origin, or else the place of the box round the bases that is nearest to it.
     pub(super) fn centred(&self, parameters: &[f64]) -> Result<Dimensions<f64>, EvaluationError> {
-        /// Distance, in characteristic lengths, within which no more than a digit is lost.
-        const NEAR: f64 = 10.0;
         let dimensions = self.dimensions_over(parameters)?;
-        let near = NEAR * dimensions.characteristic_length;
+        // within ten characteristic lengths no more than a digit is lost
+        let near = 10.0 * dimensions.characteristic_length;
         let mut places: Vec<[f64; 3]> = places_on_ground(&dimensions)
             .into_iter()
             .map(|(_, place)| place)

@@ -388,8 +388,7 @@ impl ChainRow {
 
 /// The factor that brings a guessed length, in m, back to the size of the mechanism if it is far beyond it.
 fn within_reach(guess: f64, length: f64) -> f64 {
-    const FAR: f64 = 1e3;
-    match guess.abs() > FAR * length {
+    match guess.abs() > 1e3 * length {
         true => length / guess.abs(),
         false => 1.0,
     }

@@ -168,11 +168,10 @@ impl Mechanism {
     /// Within a factor of ten of the file's own characteristic length the file's is kept, so that figures
     /// for different values of the inputs can be compared.
     pub fn measured_by(&self, held: &[f64]) -> Option<Mechanism> {
-        const COMPARABLE: f64 = 10.0;
         let own = self.largest_length(&self.dimensions, &self.driven_lengths());
         let asked = self.largest_length(&self.dimensions, held);
         let ratio = asked / own;
-        let length = match (1.0 / COMPARABLE..=COMPARABLE).contains(&ratio) {
+        let length = match (0.1..=10.0).contains(&ratio) {
             true => own,
             false => asked,
         };

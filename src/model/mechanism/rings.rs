@@ -9,6 +9,7 @@ use crate::description::Role;
 use crate::geometry::{Axis, Line, Relation, Vector3};
 use crate::linear::RANK_TOLERANCE;
 use crate::number::real;
+use crate::number::tolerance::SAME;
 
 /// A chain, and the first of three rows in it, from 0.
 type Ball = (usize, usize);
@@ -61,8 +62,6 @@ impl Mechanism {
 
     /// The balls in gimbal lock: z₁ and z₃ are one line, and both turn about it against each other moves no body.
     pub fn locked_balls(&self, at: &Configuration<f64>) -> Vec<LockedBall> {
-        /// Sine of the angle between z₁ and z₃, which are known to half the digits where solutions meet.
-        const ONE_LINE: f64 = 1e-6;
         let balls = self.balls().into_iter().filter_map(|(chain, first)| {
             let axis = |row| Some(self.hinge((chain, first + row), at)?.direction);
             let [z1, z3] = [axis(0)?, axis(2)?];
@@ -71,7 +70,8 @@ impl Mechanism {
                 self.turned((chain, first + 1))?,
                 self.turned((chain, first + 2))?,
             ];
-            (z1.cross(&z3).norm() <= ONE_LINE).then_some(LockedBall {
+            // known to half the digits where solutions meet
+            (z1.cross(&z3).norm() <= SAME).then_some(LockedBall {
                 middle,
                 turned: [(outer, 1.0 / one), (inner, -z1.dot(&z3).signum() / other)],
             })

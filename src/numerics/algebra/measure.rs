@@ -1,5 +1,6 @@
 //! The dimension of an expression (length, angle, none), as far as its units determine it.
 
+use crate::number::tolerance::ROUNDING;
 use thiserror::Error;
 
 use super::{Constant, Expression, ExpressionError, Function, Node, Operator, SiUnit, Unit};
@@ -17,7 +18,7 @@ pub enum Measure {
     Force,
     /// A moment; it has no unit that is one word.
     Moment,
-    /// What has another unit: a mass, a time, a pressure.
+    /// A quantity with another unit: a mass, a time, a pressure.
     Other(SiUnit),
     /// Not determined by units.
     Open,
@@ -52,7 +53,7 @@ pub enum MeasureErrorKind {
 }
 
 /// The largest angle, in rad, that a number without a unit may be: larger ones are mostly meant in degrees.
-const LARGEST_BARE: f64 = 2.0 * std::f64::consts::TAU;
+pub const LARGEST_BARE: f64 = 2.0 * std::f64::consts::TAU;
 
 /// A unit in a sentence.
 fn named(unit: SiUnit) -> String {
@@ -208,7 +209,7 @@ impl<N> Expression<N> {
     /// With the whole expression.
     pub fn check_angle(&self, value: f64, says: &impl Fn(&N) -> bool) -> Result<(), MeasureError> {
         // rounding does not decide at two turns
-        let doubtful = value.abs() > LARGEST_BARE * (1.0 + 1e-9);
+        let doubtful = value.abs() > LARGEST_BARE * (1.0 + ROUNDING);
         match doubtful && self.is_bare(says) {
             true => Err(self.refused(MeasureErrorKind::BareAngle(value))),
             false => Ok(()),

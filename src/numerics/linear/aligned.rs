@@ -1,20 +1,18 @@
 //! Bases along coordinate axes, as far as possible.
 
 use super::{norm, orthonormal, remove};
-
-/// Components of unit vectors below this are zero.
-const ALIGNED: f64 = 1e-6;
+use crate::number::tolerance::SAME;
 
 /// A basis of a space: the unit vectors in it, and the rest in echelon form.
 pub fn axis_aligned(vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let space = orthonormal(vectors, ALIGNED);
+    let space = orthonormal(vectors, SAME);
     let Some(size) = space.first().map(Vec::len) else {
         return vec![];
     };
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for i in 0..size {
         let share: f64 = space.iter().map(|vector| vector[i] * vector[i]).sum();
-        if share > 1.0 - ALIGNED * ALIGNED.sqrt() {
+        if share > 1.0 - SAME * SAME.sqrt() {
             let mut unit = vec![0.0; size];
             unit[i] = 1.0;
             basis.push(unit);
@@ -51,7 +49,7 @@ fn echelon(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     }
     for row in &mut rows {
         let length = norm(row);
-        let zero = |x: f64| x.abs() < ALIGNED * length;
+        let zero = |x: f64| x.abs() < SAME * length;
         row.iter_mut()
             .for_each(|x| *x = if zero(*x) { 0.0 } else { *x / length });
     }

@@ -33,9 +33,6 @@ pub struct Bordered<T: Factorable> {
 /// Unknowns that are computed together: products of a matrix and a vector are then made of sums in registers.
 const GROUP: usize = 4;
 
-/// Elimination is used if all pivots are this large: without column exchange they do not tell the rank.
-const TRUSTED_PIVOT: f64 = 1e-3;
-
 #[derive(Clone, Debug)]
 struct Factor<T: Field> {
     /// Places of the block's shared unknowns in the border.
@@ -207,9 +204,9 @@ impl<T: Factorable> Bordered<T> {
                 self.border.column_mut(place)[row + place] = root;
             }
         }
-        // the border is usually square, and elimination is faster where its pivots are large
+        // the border is usually square, and elimination is faster; without column exchange small pivots do not tell the rank
         self.square = border_rows == self.shared.len()
-            && self.square_border.factorise(self.border.entries()) > TRUSTED_PIVOT;
+            && self.square_border.factorise(self.border.entries()) > 1e-3;
         if !self.square {
             self.border.factorise(1.0);
         }

@@ -4,6 +4,7 @@ use super::parts::Parts;
 use super::vectors::{orthogonalise, rotate};
 use super::{DENSE_LIMIT, rank};
 use crate::number::sorting::order;
+use crate::number::tolerance::CANCELLED;
 
 /// A = U·Σ·Vᵀ.
 #[derive(Clone, Debug, Default)]
@@ -119,7 +120,7 @@ impl Svd {
         let size = matrix.norm();
         let apart = (u * scaled - matrix).norm();
         let askew = (v * v.transpose() - DMatrix::identity(v.nrows(), v.nrows())).norm();
-        let rounding = 1e-14 * (1.0 + matrix.ncols() as f64);
+        let rounding = CANCELLED * (1.0 + matrix.ncols() as f64);
         (apart <= rounding * size && askew <= rounding).then(|| Svd {
             left: u
                 .column_iter()

@@ -39,8 +39,12 @@ pub const SINGULAR_PLACE: f64 = 1e-9;
 /// square root.
 pub const RANK_TOLERANCE: f64 = 1e-7;
 
-/// Two configurations, points or directions nearer than this are one.
+/// Two configurations, points, values or directions nearer than this are one, and a joint as near to its limit is at it.
 pub const SAME: f64 = 1e-6;
+
+/// Components of a motion of unit norm, in rad and characteristic lengths, below this are rounding: a null space is known
+/// to about [`RANK_TOLERANCE`], with a digit to spare.
+pub const STILL: f64 = 1e-6;
 
 /// The part of a row that Gram–Schmidt must leave for it to be chosen as independent: stricter than the rank tolerance.
 pub const INDEPENDENT: f64 = 1e-6;
@@ -48,7 +52,8 @@ pub const INDEPENDENT: f64 = 1e-6;
 /// A curvature counts as negative from this part of the largest on: it is taken by differences.
 pub const CURVED: f64 = 1e-6;
 
-/// What equations that only touch zero leave of their solutions, which are known to half their digits.
+/// The error of solutions at which equations only touch zero: half of the digits are known. Singular values as small beside the
+/// largest may vanish there.
 pub const DOUBLE: f64 = 1e-5;
 
 /// Relative singular value below which, near a crossing, rounding no longer lets the tangent of a curve distinguish
@@ -58,3 +63,16 @@ pub const BESIDE_A_CROSSING: f64 = 1e-5;
 /// The step of central differences of first derivatives, in rad and characteristic lengths: their error, of second order,
 /// is about as large as that of rounding.
 pub const DIFFERENCE: f64 = 1e-5;
+
+/// Steps h, in rad and characteristic lengths, and weights w of the derivative f′ ≈ Σ w f(x + h) by five points: its error, of
+/// fourth order, is about as large as that of rounding.
+pub const FIVE_POINTS: [(f64, f64); 4] = [
+    (-2e-3, 1.0 / 12e-3),
+    (-1e-3, -8.0 / 12e-3),
+    (1e-3, 8.0 / 12e-3),
+    (2e-3, -1.0 / 12e-3),
+];
+
+/// The longest step to a solution near by, in rad and characteristic lengths: a longer one may lead to another branch, and
+/// its ends do not tell what is between them.
+pub const LONGEST_STEP: f64 = 0.5;

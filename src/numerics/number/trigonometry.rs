@@ -4,11 +4,13 @@
 /// Largest angle for the three-part reduction, which loses digits beyond; there the correctly rounding library serves.
 const REDUCIBLE: f64 = 1e5;
 
-// π/2 = P1 + P2 + P3, the first two with zeros in their last bits, so that k·P1 and k·P2 are exact
+// π/2 as a sum, the first two terms with zeros in their last bits, so that k times them is exact
 // for |k| < 2²⁰ (Cody and Waite 1980; the split is that of fdlibm's __ieee754_rem_pio2)
-const P1: f64 = f64::from_bits(0x3FF9_21FB_5440_0000);
-const P2: f64 = f64::from_bits(0x3DD0_B461_1A60_0000);
-const P3: f64 = f64::from_bits(0x3BA3_198A_2E03_7073);
+const HALF_PI: [f64; 3] = [
+    f64::from_bits(0x3FF9_21FB_5440_0000),
+    f64::from_bits(0x3DD0_B461_1A60_0000),
+    f64::from_bits(0x3BA3_198A_2E03_7073),
+];
 
 // minimax coefficients on |r| ≤ π/4 (fdlibm's __kernel_sin and __kernel_cos, Sun 1993)
 const S: [f64; 6] = [
@@ -41,16 +43,14 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 /// (sinh x, cosh x) by one exponential, to within 3 units in the last place.
 #[inline]
 pub(crate) fn sinh_cosh(x: f64) -> (f64, f64) {
-    /// Argument below which the difference of exponentials loses digits, and seven terms of the series leave
-    /// less than rounding: 2⁻¹⁴/15!.
-    const SMALL: f64 = 0.5;
     if x == 0.0 {
         return (x, 1.0);
     }
     let grown = pxfm::f_exp(x.abs());
     let shrunk = 1.0 / grown;
     let cosh = 0.5 * (grown + shrunk);
-    if x.abs() >= SMALL {
+    // below, the difference of exponentials loses digits, and seven terms of the series leave less than rounding: 2⁻¹⁴/15!
+    if x.abs() >= 0.5 {
         return ((0.5 * (grown - shrunk)).copysign(x), cosh);
     }
     let z = x * x;
@@ -112,12 +112,8 @@ fn ordinary(y: f64, x: f64) -> bool {
     size > 0.0 && size < f64::MAX
 }
 
-// tan π/8
-const EIGHTH: f64 = 0.414_213_562_373_095_03;
-
-// π/4 = H + L, the first with zeros in its last bits, so that k·H is exact for k ≤ 4
-const H: f64 = f64::from_bits(0x3FE9_21FB_5440_0000);
-const L: f64 = 3.038550253253096e-11;
+// π/4 as a sum, the first term with zeros in its last bits, so that k times it is exact for k ≤ 4
+const QUARTER_PI: [f64; 2] = [f64::from_bits(0x3FE9_21FB_5440_0000), 3.038550253253096e-11];
 
 // (atan t / t − 1)/t² as a polynomial in t², interpolated at the Chebyshev nodes of |t| ≤ tan π/8;
 // t² times it is off by less than 8e-18
@@ -142,8 +138,8 @@ fn folded(y: f64, x: f64) -> f64 {
     let (a, b) = (y.abs(), x.abs());
     let steep = a > b;
     let (low, high) = (choose(steep, b, a), choose(steep, a, b));
-    // atan(low/high) = π/4 + atan((low − high)/(low + high))
-    let wide = low > EIGHTH * high;
+    // beyond tan π/8, atan(low/high) = π/4 + atan((low − high)/(low + high))
+    let wide = low > 0.414_213_562_373_095_03 * high;
     let t = choose(wide, low - high, low) / choose(wide, low + high, high);
     let z = t * t;
     let (z2, z4) = (z * z, (z * z) * (z * z));
@@ -157,7 +153,7 @@ fn folded(y: f64, x: f64) -> f64 {
     let quarters = choose(steep, 2.0 - quarters, quarters);
     let quarters = choose(back, 4.0 - quarters, quarters);
     let part = choose(steep != back, -part, part);
-    (quarters * H + (quarters * L + part)).copysign(y)
+    (quarters * QUARTER_PI[0] + (quarters * QUARTER_PI[1] + part)).copysign(y)
 }
 
 /// For |x| below [`REDUCIBLE`].
@@ -165,10 +161,11 @@ fn folded(y: f64, x: f64) -> f64 {
 fn reduced(x: f64) -> (f64, f64) {
     // nearest whole number of quarter turns, by letting the sum with 3·2⁵¹ round: its last bits
     // are those of the number
-    let shifted = x * std::f64::consts::FRAC_2_PI + SHIFT;
+    let shift = 6_755_399_441_055_744.0;
+    let shifted = x * std::f64::consts::FRAC_2_PI + shift;
     let quadrant = shifted.to_bits();
-    let k = shifted - SHIFT;
-    let r = ((x - k * P1) - k * P2) - k * P3;
+    let k = shifted - shift;
+    let r = ((x - k * HALF_PI[0]) - k * HALF_PI[1]) - k * HALF_PI[2];
     let z = r * r;
     let w = z * z;
     // Estrin's scheme: short dependency chains
@@ -185,8 +182,6 @@ fn reduced(x: f64) -> (f64, f64) {
         f64::from_bits(cos.to_bits() ^ swapped ^ sign(quadrant.wrapping_add(1))),
     )
 }
-
-const SHIFT: f64 = 6_755_399_441_055_744.0;
 
 #[cfg(test)]
 mod tests {

@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::threads::Pool;
 use super::{Stage, Watch};
+use crate::number::tolerance::SAME;
 use crate::number::{Interval, Number};
 
 /// Rows that vanish where a solution is, over boxes.
@@ -65,11 +66,9 @@ pub struct Pruned {
 
 /// A box round a point that holds one zero at most. Its sides are 2·10⁻⁸ to 1; none where no such box is found.
 pub fn isolated<C: Conditions>(conditions: &C, centre: &[f64]) -> Option<Sides> {
-    const WIDEST: f64 = 0.5;
-    const NARROWEST: f64 = 1e-8;
     let mut work = conditions.work();
-    let mut radius = WIDEST;
-    while radius > NARROWEST {
+    let mut radius = 0.5;
+    while radius > 1e-8 {
         let sides: Sides = centre
             .iter()
             .map(|&x| Interval::around(x, radius))
@@ -178,10 +177,6 @@ fn piece<C: Conditions>(
     most: usize,
     work: &mut C::Work,
 ) -> Pruned {
-    /// Boxes with no side longer than this are not halved, in rad or characteristic lengths.
-    const LEAST_SIDE: f64 = 1e-6;
-    /// Halves are not equal, so that no face passes through what lies in the middle.
-    const SHARE: f64 = 0.487;
     let mut done = Pruned {
         met: vec![0; regions.len()],
         waiting: vec![start.clone()],
@@ -219,11 +214,12 @@ fn piece<C: Conditions>(
         match (empty, place) {
             (true, _) => {}
             (_, Some(place)) => done.met[place] += 1,
-            _ if longest <= LEAST_SIDE && one => done.found.push(sides),
-            _ if longest <= LEAST_SIDE => done.left.push(sides),
+            _ if longest <= SAME && one => done.found.push(sides),
+            _ if longest <= SAME => done.left.push(sides),
             _ => {
                 let x = sides[along];
-                let middle = x.low + SHARE * x.width();
+                // halves are not equal, so that no face passes through a zero in the middle
+                let middle = x.low + 0.487 * x.width();
                 let mut lower = sides.clone();
                 lower[along].high = middle;
                 sides[along].low = middle;

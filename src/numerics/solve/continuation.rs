@@ -225,7 +225,6 @@ impl Continuation {
         length: f64,
     ) -> Option<(C::Point, f64)> {
         const STEPS: usize = 40;
-        const CONTRACTION: f64 = 0.5;
         let ahead: Vec<f64> = from.tangent.iter().map(|x| x * length).collect();
         let mut at = curve.displaced(&from.at, &ahead);
         let mut before = f64::INFINITY;
@@ -233,9 +232,10 @@ impl Continuation {
             let residual = curve.residual(&at);
             let step = back(&from.decomposition, &residual);
             let size = norm(&step);
-            let there = size < 1e-13 || (size < 1e-11 && size >= CONTRACTION * before);
             // a NaN is refused too
-            let sure = size <= 0.5 * length.abs() && size < CONTRACTION * before;
+            let shrinks = size < 0.5 * before;
+            let there = size < 1e-13 || (size < 1e-11 && !shrinks);
+            let sure = size <= 0.5 * length.abs() && shrinks;
             if !sure && !there {
                 return None;
             }

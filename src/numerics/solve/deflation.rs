@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::linear::Svd;
+use crate::number::tolerance::{CURVED, DIFFERENCE};
 
 /// Equations at a point, with the slopes set apart that vanish relative to the largest.
 struct SplitSlopes {
@@ -15,9 +16,6 @@ struct SplitSlopes {
 }
 
 impl SplitSlopes {
-    /// Distance of the differences that give curvatures.
-    const APART: f64 = 1e-4;
-
     /// `None` if something is not finite.
     fn of(columns: usize, lost: f64, (residual, jacobian): (Vec<f64>, Vec<f64>)) -> Option<Self> {
         if !residual.iter().chain(&jacobian).all(|x| x.is_finite()) {
@@ -56,7 +54,7 @@ impl SplitSlopes {
             let (rows, columns) = self.jacobian.shape();
             DMatrix::from_vec(rows, columns, linearised(shift.as_slice()).1)
         };
-        (side(Self::APART) - side(-Self::APART)) * &self.free / (2.0 * Self::APART)
+        (side(DIFFERENCE) - side(-DIFFERENCE)) * &self.free / (2.0 * DIFFERENCE)
     }
 }
 
@@ -71,10 +69,6 @@ pub fn deflating_step(
     lost: f64,
     mut linearised: impl FnMut(&[f64]) -> (Vec<f64>, Vec<f64>),
 ) -> Option<Vec<f64>> {
-    /// Along a null vector of no more curvature, relative to the largest or in the errors of differences, there may
-    /// be a set of solutions.
-    const FLAT: f64 = 1e-3;
-    const ROUNDED: f64 = 1e-6;
     const SWEEPS: usize = 1000;
     let split = SplitSlopes::of(columns, lost, linearised(&vec![0.0; columns]))?;
     let (range, free) = (&split.range, &split.free);
@@ -94,9 +88,10 @@ pub fn deflating_step(
             return None;
         }
         let bent = bent.try_svd(true, true, f64::EPSILON, SWEEPS)?;
-        // the nearer, the less do differences mistake the shape of a set for curvature
-        let flat = FLAT.min(0.1 * lost);
-        let flat = (flat * bent.singular_values.max()).max(ROUNDED);
+        // along a null vector of less curvature there may be a set of solutions; the nearer, the less do differences mistake
+        // its shape for curvature
+        let flat = (0.1 * lost).min(1e-3);
+        let flat = (flat * bent.singular_values.max()).max(CURVED);
         step -= free * bent.solve(&slope, flat).ok()?;
     }
     let finite = step.iter().all(|x| x.is_finite());
@@ -111,8 +106,6 @@ pub fn step_off_saddle(
     lost: f64,
     mut linearised: impl FnMut(&[f64]) -> (Vec<f64>, Vec<f64>),
 ) -> Option<Vec<f64>> {
-    /// Error of a curvature by differences, relative to slopes near 1.
-    const ROUNDED: f64 = 1e-6;
     let split = SplitSlopes::of(columns, lost, linearised(&vec![0.0; columns]))?;
     let left = DMatrix::from_column_slice(split.residual.len(), 1, split.residual.as_slice());
     let gap = split.off(left).column(0).into_owned();
@@ -129,5 +122,5 @@ pub fn step_off_saddle(
     let curvature = eigen.eigenvalues[most];
     let length = (-2.0 * size / curvature).sqrt();
     let step = &split.free * eigen.eigenvectors.column(most) * length;
-    (curvature < -ROUNDED).then(|| step.as_slice().to_vec())
+    (curvature < -CURVED).then(|| step.as_slice().to_vec())
 }

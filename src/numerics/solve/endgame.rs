@@ -40,8 +40,6 @@ pub enum PathEnd {
 const SAMPLES: usize = 8;
 /// The most turns waited for.
 const MOST_TURNS: usize = 8;
-/// Size from which a term with a negative power counts, relative to the solution.
-const GROWING: f64 = 1e-3;
 /// Circles in a row on which it must grow; as another meeting point inside looks the same, until all of one is far out.
 const IN_A_ROW: usize = 3;
 /// Circles gone round at most.
@@ -72,7 +70,8 @@ pub fn path_end<H: Turning>(
             let negative = (1..=3).map(|k| norm(&coefficient(samples, winding, k)));
             let negative = negative.fold(0.0, f64::max);
             if let Some((previous, was)) = &before {
-                let grows = turned || (negative > GROWING * scale && negative > 1.05 * was);
+                // a term with a negative power is seen from a thousandth of the solution on
+                let grows = turned || (negative > 1e-3 * scale && negative > 1.05 * was);
                 growing = if grows { growing + 1 } else { 0 };
                 let gap: Vec<C> = mean.iter().zip(previous).map(|(a, b)| a - b).collect();
                 let logarithmic = turned && grows_as_logarithm(&gap, winding);

@@ -1,5 +1,6 @@
 //! Initial value problems ẏ = f(t, y), step by step, with dense output.
 
+use crate::number::tolerance::CANCELLED;
 use std::cell::RefCell;
 
 use differential_equations::interpolate::Interpolation;
@@ -133,10 +134,8 @@ fn advance<Y: differential_equations::traits::State<f64>>(
     flow: &impl ODE<f64, Y>,
     end: f64,
 ) -> Result<f64, TooShort> {
-    /// Shorter steps, relative to the whole time, are lost in it.
-    const SHORTEST: f64 = 1e-14;
     let (time, wanted) = (method.t(), method.h());
-    if wanted.is_nan() || wanted <= SHORTEST * end.abs() {
+    if wanted.is_nan() || wanted <= CANCELLED * end.abs() {
         return Err(TooShort);
     }
     let last = wanted >= end - time;
@@ -201,12 +200,11 @@ impl Integrator {
     }
 
     /// True if stability rather than accuracy limits the steps of the explicit method: |h λ| of the dominant eigenvalue λ
-    /// of ∂f/∂y, by one iteration of the power method at a time, is larger than accuracy would make it; its domain of
+    /// of ∂f/∂y, by one iteration of the power method at a time, is larger than 1.5, to which accuracy keeps it; its domain of
     /// stability ends near 6.
     fn is_limited_by_stability(&mut self, flow: &mut dyn Flow) -> bool {
         const EVERY: usize = 8;
         const IN_A_ROW: usize = 8;
-        const NEAR_EDGE: f64 = 1.5;
         if self.stiff || self.steps % EVERY != EVERY - 1 {
             return false;
         }
@@ -231,7 +229,7 @@ impl Integrator {
         if eigenvalue > 0.0 {
             self.steepest = change.iter().map(|x| x / size(&change)).collect();
         }
-        self.limited = match self.step * eigenvalue > NEAR_EDGE {
+        self.limited = match self.step * eigenvalue > 1.5 {
             true => self.limited + 1,
             false => 0,
         };

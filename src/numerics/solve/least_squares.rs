@@ -81,12 +81,6 @@ pub struct Fitted<P> {
     pub converged: bool,
 }
 
-/// Damping at which a step leads nowhere.
-const MOST_DAMPED: f64 = 1e12;
-
-/// Damping below which no digit changes.
-const UNDAMPED: f64 = 1e-12;
-
 impl LevenbergMarquardt {
     /// The point to which the search leads from a start.
     pub fn solve<E: LeastSquares>(&self, problem: &E, start: E::Point) -> Fitted<E::Point> {
@@ -148,7 +142,8 @@ impl<E: LeastSquares> Solver<&E, Iterate<E::Point>> for DampedSearch {
                     && after.equations <= before.equations.max(floor);
                 if nearer || lower {
                     self.damping = match self.damping / 10.0 {
-                        less if less < UNDAMPED => 0.0,
+                        // no digit changes by less
+                        less if less < 1e-12 => 0.0,
                         less => less,
                     };
                     if step < tolerance {
@@ -157,7 +152,8 @@ impl<E: LeastSquares> Solver<&E, Iterate<E::Point>> for DampedSearch {
                     return Ok((state.param(to).cost(after.squares), None));
                 }
                 self.damping = (self.damping * 10.0).max(1e-9);
-                if step < tolerance || self.damping > MOST_DAMPED {
+                // so damped a step leads nowhere
+                if step < tolerance || self.damping > 1e12 {
                     self.ended = Some(true);
                     return Ok((state.param(at.clone()).cost(before.squares), None));
                 }

@@ -88,13 +88,12 @@ impl<C: FnMut(&[f64]) -> Option<f64>> CostFunction for Rough<'_, C> {
     type Param = Vec<f64>;
     type Output = f64;
     fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
-        /// The square of this is a number, so that spreads of costs are.
-        const NOTHING: f64 = 1e100;
         if self.watch.is_stopped() {
             return Err(Error::msg("stopped"));
         }
         let cost = (self.cost.borrow_mut())(x);
-        Ok(cost.filter(|cost| cost.is_finite()).unwrap_or(NOTHING))
+        // its square is a number, so that spreads of costs are
+        Ok(cost.filter(|cost| cost.is_finite()).unwrap_or(1e100))
     }
 }
 

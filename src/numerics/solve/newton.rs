@@ -11,15 +11,6 @@ pub struct Newton {
     pub max_steps: usize,
 }
 
-/// The longest step in any unknown, in rad or characteristic lengths: no rotation is linear beyond about 1 rad.
-const LONGEST_STEP: f64 = 1.0;
-/// The first damping tried after a failed step.
-const FIRST_DAMPING: f64 = 1e-3;
-/// An undamped step that must be cut and leaves more than this of the sum of squares is not made.
-const STALLED: f64 = 0.99;
-/// A minimum is reached when a step lowers the sum of squares by less than this fraction.
-const LEAST_PROGRESS: f64 = 1e-9;
-
 impl Default for Newton {
     fn default() -> Self {
         Newton {
@@ -74,7 +65,7 @@ impl Newton {
             }
             // a slow step may be the way round a bend; several in a row are a minimum
             let progress = 1.0 - size.squares / before.squares;
-            let is_slow = progress < LEAST_PROGRESS;
+            let is_slow = progress < 1e-9;
             slow = if is_slow { slow + 1 } else { 0 };
             if slow == 3 {
                 return report(Stop::Minimum, steps + 1, size);
@@ -101,12 +92,12 @@ impl Newton {
             equations.factorise(*damping, work);
             let longest = equations.step(work);
             if longest.is_finite() {
-                let fraction = (LONGEST_STEP / longest).min(1.0);
+                // no rotation is linear beyond about 1 rad
+                let fraction = (1.0 / longest).min(1.0);
                 equations.advance(point, fraction, work, trial);
                 let next = equations.residual(trial, work);
                 // a direction that the equations hardly see takes up the step; damping leaves it out
-                let lost =
-                    *damping == 0.0 && fraction < 1.0 && next.squares > STALLED * size.squares;
+                let lost = *damping == 0.0 && fraction < 1.0 && next.squares > 0.99 * size.squares;
                 if next.squares < size.squares && !lost {
                     std::mem::swap(point, trial);
                     let gain = next.squares / size.squares;
@@ -122,7 +113,7 @@ impl Newton {
                     return None;
                 }
             }
-            *damping = (*damping * 8.0).max(FIRST_DAMPING);
+            *damping = (*damping * 8.0).max(1e-3);
             if *damping > 1e8 {
                 return None;
             }

@@ -1,6 +1,6 @@
 //! The highest point of a function of one variable.
 
-use crate::number::tolerance::EXACT;
+use crate::number::tolerance::{EXACT, SUMMED};
 
 /// The maximum between two places, and its height: by golden section, accurate to √ε, then by the zero of the slope
 /// (central differences of fourth order), accurate to about 10⁻¹⁰ of the interval, unless that is lower.
@@ -52,7 +52,8 @@ struct GoldenSection {
     heights: [f64; 2],
 }
 
-const GOLDEN: f64 = 0.381_966_011_250_105_1;
+/// The smaller part of the golden section, (3 − √5)/2.
+pub const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 impl GoldenSection {
     fn of(from: f64, to: f64, height: &mut impl FnMut(f64) -> Option<f64>) -> Option<Self> {
@@ -126,7 +127,7 @@ fn stationary(
             break;
         }
     }
-    let rounding = 1e-13 * rough.1.abs();
+    let rounding = SUMMED * rough.1.abs();
     match height(next) {
         Some(value) if value >= rough.1 - rounding => Some((next, value)),
         _ => None,

@@ -1,5 +1,5 @@
 use super::Equations;
-use crate::number::tolerance::SOLVED;
+use crate::number::tolerance::{LONGEST_STEP, SOLVED};
 
 /// Newton's method for following a motion: each point starts from the ones before it, by extrapolation ([`Trail`]).
 ///
@@ -40,12 +40,6 @@ const ORDERS: usize = 6;
 
 /// Steps after which to give up.
 const MAX_STEPS: usize = 20;
-/// A step must multiply the residual by less than this, or the Jacobian is renewed, which costs one to three steps.
-const CONTRACTION: f64 = 1e-3;
-/// The longest step in any unknown, in rad or characteristic lengths: longer ones may lead to another branch.
-const LONGEST_STEP: f64 = 0.5;
-/// A step that reaches the tolerance but gains no more than this has too old a Jacobian to tell the remaining error.
-const STALE: f64 = 1e-2;
 
 /// The past of a motion: its factorised Jacobian, if any, and the backward differences m, ∇m, …, ∇⁵m of the latest
 /// moves m from solution to solution.
@@ -207,8 +201,10 @@ impl Warm {
             let residual = equations.residual(&trail.spare, work).largest;
             let acceptable = longest <= longest_step && residual < report.residual;
             let enough = match residual <= self.tolerance {
-                true => STALE,
-                false => CONTRACTION,
+                // with less gain the Jacobian is too old to tell the error that remains
+                true => 1e-2,
+                // a new Jacobian costs one to three steps
+                false => 1e-3,
             };
             let gained = residual <= enough * report.residual;
             trail.factorised = acceptable && gained;

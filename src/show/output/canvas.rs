@@ -16,6 +16,8 @@ pub type Pixel = (f64, f64);
 pub struct Colour(pub u32);
 
 pub(crate) const WHITE: Colour = Colour(0xff_ff_ff);
+/// Height of small letters in pixels.
+pub(crate) const LETTERS: f64 = 12.0;
 pub(crate) const INK: Colour = Colour(0x22_22_22);
 
 impl Colour {

@@ -75,7 +75,7 @@ pub fn largest(design: &FoundDesign) -> String {
     }
 }
 
-/// What comes nearest where no exact solution will do.
+/// The nearest design where no exact solution will do.
 fn nearest(report: &DesignReport) -> String {
     let Some(of) = &report.nearest else {
         return String::new();

@@ -79,11 +79,11 @@ pub enum Block {
 /// A formula, set for terminals and for TeX.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FormulaBlock {
-    /// What it is about; may be empty.
+    /// Its subject; may be empty.
     pub title: String,
     /// Its lines in Unicode.
     pub unicode: String,
-    /// The same for displayed LaTeX; empty if there are no lines.
+    /// Its lines as displayed LaTeX; empty if there are none.
     pub latex: String,
     /// Remarks below it, a line each.
     pub below: Vec<String>,

@@ -12,7 +12,7 @@ pub use beside::movement;
 pub(crate) use camera::Camera;
 pub use camera::Viewpoint;
 
-use super::canvas::{Anchor, Canvas, Colour, INK, OutlineStyle, Pixel, Shape};
+use super::canvas::{Anchor, Canvas, Colour, INK, LETTERS, OutlineStyle, Pixel, Shape};
 use crate::geometry::Vector3;
 use crate::number::{real, sorting::sort_by};
 use crate::scene::{BodyShape, Scene, Triple};
@@ -52,10 +52,8 @@ impl Panel {
     }
 }
 
-/// Size of a picture in pixels, and its margin.
-const WIDTH: f64 = 640.0;
-const HEIGHT: f64 = 520.0;
-const MARGIN: f64 = 60.0;
+/// Width and height of a picture in pixels.
+const SIZE: (f64, f64) = (640.0, 520.0);
 /// Pictures side by side, where there are several.
 const COLUMNS: usize = 3;
 /// Opacity of parts that lie behind.
@@ -100,8 +98,8 @@ pub fn sheet(panels: &[Panel], settings: &DrawingSettings) -> Canvas {
     let columns = panels.len().clamp(1, COLUMNS);
     let rows = panels.len().div_ceil(columns);
     let mut canvas = Canvas {
-        width: columns as f64 * WIDTH,
-        height: rows as f64 * HEIGHT,
+        width: columns as f64 * SIZE.0,
+        height: rows as f64 * SIZE.1,
         shapes: Vec::new(),
     };
     let fits = panels.iter().map(|panel| {
@@ -112,7 +110,7 @@ pub fn sheet(panels: &[Panel], settings: &DrawingSettings) -> Canvas {
     let scale = fits.iter().map(|fit| fit.scale);
     let scale = scale.fold(f64::INFINITY, f64::min);
     for (i, (panel, fit)) in panels.iter().zip(fits).enumerate() {
-        let corner = ((i % columns) as f64 * WIDTH, (i / columns) as f64 * HEIGHT);
+        let corner = ((i % columns) as f64 * SIZE.0, (i / columns) as f64 * SIZE.1);
         let fit = Framing { scale, ..fit };
         canvas
             .shapes
@@ -130,8 +128,8 @@ pub fn frames(panels: &[Panel], settings: &DrawingSettings) -> Vec<Canvas> {
     let fit = Framing::of(&camera, panels.iter().map(|panel| &panel.scene));
     let size = StagedScene::new(first, settings.view, fit, (0.0, 0.0)).size;
     let frame = |panel: &Panel| Canvas {
-        width: WIDTH,
-        height: HEIGHT,
+        width: SIZE.0,
+        height: SIZE.1,
         shapes: draw(panel, settings, (0.0, 0.0), fit, Some(size)),
     };
     panels.iter().map(frame).collect()
@@ -154,8 +152,9 @@ impl Framing {
                 scale: 1.0,
             };
         }
-        let room = |(low, high): (f64, f64), pixels: f64| (pixels - 2.0 * MARGIN) / (high - low);
-        let scale = room(across, WIDTH).min(room(up, HEIGHT));
+        // a margin of 60 pixels on either side
+        let room = |(low, high): (f64, f64), pixels: f64| (pixels - 120.0) / (high - low);
+        let scale = room(across, SIZE.0).min(room(up, SIZE.1));
         Framing {
             middle: (0.5 * (across.0 + across.1), 0.5 * (up.0 + up.1)),
             scale: if scale.is_finite() { scale } else { 1.0 },
@@ -313,7 +312,7 @@ fn draw(
     fit: Framing,
     size: Option<f64>,
 ) -> Vec<Shape> {
-    let centre = (corner.0 + WIDTH / 2.0, corner.1 + HEIGHT / 2.0);
+    let centre = (corner.0 + SIZE.0 / 2.0, corner.1 + SIZE.1 / 2.0);
     let mut stage = StagedScene::new(&panel.scene, settings.view, fit, centre);
     stage.size = size.unwrap_or(stage.size);
     let mut shapes = Vec::new();
@@ -325,10 +324,10 @@ fn draw(
         shapes.extend(ghost.shapes().map(|shape| shape.faint(FAINT)));
     }
     shapes.extend(stage.shapes());
-    let title = (corner.0 + WIDTH / 2.0, corner.1 + 28.0);
+    let title = (corner.0 + SIZE.0 / 2.0, corner.1 + 28.0);
     shapes.push(Shape::words(&panel.title, title, 15.0, Anchor::Middle));
     // below and beside what the margin leaves to the mechanism
-    let from = (corner.0 + 20.0, corner.1 + HEIGHT - 18.0);
+    let from = (corner.0 + 20.0, corner.1 + SIZE.1 - 18.0);
     for (name, end) in stage.camera.triad() {
         let to = |part: f64| (from.0 + part * end.0, from.1 - part * end.1);
         let letter = to(27.0);
@@ -342,7 +341,7 @@ fn draw(
     let (over, named) = beside::over(&stage);
     shapes.extend(over);
     for (name, place) in Labels::of(&stage, settings.labels, named) {
-        shapes.push(Shape::words(name, place, labels::LETTERS, Anchor::Start));
+        shapes.push(Shape::words(name, place, LETTERS, Anchor::Start));
     }
     shapes
 }

@@ -5,7 +5,7 @@ mod within;
 
 pub(super) use within::{broken, most};
 
-use super::canvas::{Anchor, Canvas, Colour, INK, OutlineStyle, Pixel, Shape};
+use super::canvas::{Anchor, Canvas, Colour, INK, LETTERS, OutlineStyle, Pixel, Shape};
 use super::drawing::{Framing, Viewpoint, strobe};
 use super::quantity::{number, with_unit};
 use crate::algebra::SiUnit;
@@ -97,11 +97,11 @@ pub fn stacked(charts: &[LineChart]) -> Canvas {
 /// The charts side by side in columns, row after row, under a title.
 pub fn sheet(title: Option<&str>, columns: usize, charts: &[LineChart]) -> Canvas {
     let columns = columns.clamp(1, charts.len().max(1));
-    let top = if title.is_some() { ABOVE } else { 0.0 };
+    let top = if title.is_some() { CHART.above } else { 0.0 };
     let height = |row: &[LineChart]| row.iter().map(height).fold(0.0, f64::max);
     let heights: Vec<f64> = charts.chunks(columns).map(height).collect();
     let mut canvas = Canvas {
-        width: columns as f64 * WIDTH,
+        width: columns as f64 * CHART.whole[0],
         height: top + heights.iter().sum::<f64>(),
         shapes: Vec::new(),
     };
@@ -114,48 +114,68 @@ pub fn sheet(title: Option<&str>, columns: usize, charts: &[LineChart]) -> Canva
     let mut below = top;
     for (row, height) in charts.chunks(columns).zip(heights) {
         for (column, chart) in row.iter().enumerate() {
-            draw(&mut canvas.shapes, (column as f64 * WIDTH, below), chart);
+            draw(
+                &mut canvas.shapes,
+                (column as f64 * CHART.whole[0], below),
+                chart,
+            );
         }
         below += height;
     }
     canvas
 }
 
-/// Size of a chart, and the room beside its axes for the labels, the title, and the legend with the scale.
-const WIDTH: f64 = 760.0;
-const HEIGHT: f64 = 520.0;
-const LEFT: f64 = 80.0;
-const ABOVE: f64 = 50.0;
-const BELOW: f64 = 65.0;
-const RIGHT: f64 = 210.0;
-/// Distance of lines in the legend.
-const LINE: f64 = 18.0;
-/// Height of small letters.
-const SMALL: f64 = 12.0;
-/// Height of the scale of colours with its labels.
-const SCALE: f64 = 190.0;
+/// Sizes of a chart in pixels.
+struct ChartSizes {
+    whole: [f64; 2],
+    /// The largest and the least side of axes with one scale.
+    axes: [f64; 2],
+    /// The room beside the axes for the labels, the title, and the legend with the scale.
+    left: f64,
+    above: f64,
+    below: f64,
+    right: f64,
+    /// Distance of lines in the legend.
+    line: f64,
+    /// Height of the scale of colours with its labels.
+    scale: f64,
+}
+
+const CHART: ChartSizes = ChartSizes {
+    whole: [760.0, 520.0],
+    axes: [600.0, 40.0],
+    left: 80.0,
+    above: 50.0,
+    below: 65.0,
+    right: 210.0,
+    line: 18.0,
+    scale: 190.0,
+};
 
 /// Width and height of the axes in pixels; a map of colours whose units are as long along both axes is just as
 /// large as these.
 fn frame(chart: &LineChart) -> [f64; 2] {
-    const HIGHEST: f64 = 600.0;
-    const LEAST: f64 = 40.0;
-    let widest = WIDTH - LEFT - RIGHT;
+    let [highest, least] = CHART.axes;
+    let widest = CHART.whole[0] - CHART.left - CHART.right;
     match chart.heat.as_ref().filter(|_| chart.equal) {
         Some(heat) => {
             let ratio = (heat.y.1 - heat.y.0) / (heat.x.1 - heat.x.0);
-            let width = widest.min(HIGHEST / ratio);
+            let width = widest.min(highest / ratio);
             // what is so thin that no label fits is drawn thicker
-            [width.max(LEAST), (width * ratio).max(LEAST)]
+            [width.max(least), (width * ratio).max(least)]
         }
-        None => [widest, HEIGHT - ABOVE - BELOW],
+        None => [widest, CHART.whole[1] - CHART.above - CHART.below],
     }
 }
 
 fn height(chart: &LineChart) -> f64 {
-    let scale = if chart.heat.is_some() { SCALE } else { 0.0 };
-    let legend = (chart.series.len() + chart.marks.len()) as f64 * LINE + scale;
-    ABOVE + frame(chart)[1].max(legend) + BELOW
+    let scale = if chart.heat.is_some() {
+        CHART.scale
+    } else {
+        0.0
+    };
+    let legend = (chart.series.len() + chart.marks.len()) as f64 * CHART.line + scale;
+    CHART.above + frame(chart)[1].max(legend) + CHART.below
 }
 
 /// Ranges of the axes.
@@ -234,13 +254,16 @@ fn labels((low, high): (f64, f64), wanted: f64, degrees: bool) -> Vec<f64> {
 fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &LineChart) {
     let [width, height] = frame(chart);
     let at = |x: f64, y: f64| (corner.0 + x, corner.1 + y);
-    let title = at(LEFT + width / 2.0, ABOVE / 2.0 + 5.0);
+    let title = at(CHART.left + width / 2.0, CHART.above / 2.0 + 5.0);
     shapes.push(Shape::words(&chart.title, title, 15.0, Anchor::Middle));
     let [x, y] = ranges(chart);
     let place = |p: (f64, f64)| {
         let across = (p.0 - x.0) / (x.1 - x.0);
         let up = (p.1 - y.0) / (y.1 - y.0);
-        at(LEFT + across * width, ABOVE + (1.0 - up) * height)
+        at(
+            CHART.left + across * width,
+            CHART.above + (1.0 - up) * height,
+        )
     };
     let (grid, axis) = (
         OutlineStyle::line(Colour(0xe1e1e1), 0.8),
@@ -251,7 +274,7 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &LineChart) {
         let beyond = |by: Pixel| (from.0 + by.0, from.1 + by.1);
         shapes.push(Shape::line([from, to], grid));
         shapes.push(Shape::line([from, beyond(out)], axis));
-        shapes.push(Shape::words(number(value), beyond(words), SMALL, anchor));
+        shapes.push(Shape::words(number(value), beyond(words), LETTERS, anchor));
     };
     let degrees = [&chart.x, &chart.y].map(|label| label.ends_with("(°)"));
     for at in labels(x, width / 60.0, degrees[0]) {
@@ -263,17 +286,20 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &LineChart) {
         ticks(at, ends, (-5.0, 0.0), (-9.0, 4.0), Anchor::End);
     }
     shapes.push(Shape::rectangle(place((x.0, y.1)), place((x.1, y.0)), axis));
-    let below = at(LEFT + width / 2.0, ABOVE + height + 0.7 * BELOW);
+    let below = at(
+        CHART.left + width / 2.0,
+        CHART.above + height + 0.7 * CHART.below,
+    );
     shapes.push(Shape::words(&chart.x, below, 13.0, Anchor::Middle));
     shapes.push(Shape::Words {
         text: chart.y.clone(),
-        at: at(0.25 * LEFT, ABOVE + height / 2.0),
+        at: at(0.25 * CHART.left, CHART.above + height / 2.0),
         size: 13.0,
         anchor: Anchor::Middle,
         upwards: true,
     });
-    let right = LEFT + width + 20.0;
-    let mut line = ABOVE + 8.0;
+    let right = CHART.left + width + 20.0;
+    let mut line = CHART.above + 8.0;
     if let Some(heat) = &chart.heat {
         let across = heat.rows.first().map_or(1, Vec::len) as f64;
         let up = heat.rows.len().max(1) as f64;
@@ -298,7 +324,7 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &LineChart) {
             middle: (0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)),
             scale: width / (x.1 - x.0),
         };
-        let centre = at(LEFT + width / 2.0, ABOVE + height / 2.0);
+        let centre = at(CHART.left + width / 2.0, CHART.above + height / 2.0);
         shapes.extend(strobe(scenes, *view, fit, centre));
     }
     let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
@@ -314,8 +340,8 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &LineChart) {
         let sample = [at(right, line), at(right + 24.0, line)];
         shapes.push(Shape::line(sample, style));
         let beside = at(right + 32.0, line + 4.0);
-        shapes.push(Shape::words(&series.label, beside, SMALL, Anchor::Start));
-        line += LINE;
+        shapes.push(Shape::words(&series.label, beside, LETTERS, Anchor::Start));
+        line += CHART.line;
     }
     for (i, marks) in chart.marks.iter().enumerate() {
         let within = |y: f64| (chart.within).is_none_or(|(low, high)| (low..=high).contains(&y));
@@ -330,8 +356,8 @@ fn draw(shapes: &mut Vec<Shape>, corner: Pixel, chart: &LineChart) {
             ));
         }
         let beside = at(right + 32.0, line + 4.0);
-        shapes.push(Shape::words(&marks.label, beside, SMALL, Anchor::Start));
-        line += LINE;
+        shapes.push(Shape::words(&marks.label, beside, LETTERS, Anchor::Start));
+        line += CHART.line;
     }
 }
 
@@ -341,10 +367,10 @@ fn scale(shapes: &mut Vec<Shape>, heat: &Heat, at: impl Fn(f64, f64) -> Pixel) -
     shapes.push(Shape::words(
         &heat.label,
         at(0.0, 4.0),
-        SMALL,
+        LETTERS,
         Anchor::Start,
     ));
-    let height = |part: f64| LINE + (1.0 - part) * (SCALE - 3.0 * LINE);
+    let height = |part: f64| CHART.line + (1.0 - part) * (CHART.scale - 3.0 * CHART.line);
     for band in 0..BANDS {
         let part = |k: i32| f64::from(k) / f64::from(BANDS);
         let (top, bottom) = (height(part(band + 1)), height(part(band)));
@@ -353,7 +379,7 @@ fn scale(shapes: &mut Vec<Shape>, heat: &Heat, at: impl Fn(f64, f64) -> Pixel) -
     }
     for value in labels((0.0, heat.highest), 5.0, false) {
         let place = at(32.0, height(value / heat.highest) + 4.0);
-        shapes.push(Shape::words(number(value), place, SMALL, Anchor::Start));
+        shapes.push(Shape::words(number(value), place, LETTERS, Anchor::Start));
     }
-    SCALE
+    CHART.scale
 }

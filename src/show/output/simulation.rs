@@ -46,7 +46,7 @@ impl Report for SimulationReport {
     }
 }
 
-/// How a simulation ended.
+/// The end of a simulation in a sentence.
 pub fn sentence(report: &SimulationReport) -> String {
     let time = quantity(report.reached, SiUnit::SECOND);
     let freedoms = count(report.freedoms, "freedom");

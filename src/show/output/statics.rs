@@ -41,7 +41,7 @@ impl Report for StaticsReport {
     }
 }
 
-/// What the forces leave out.
+/// The loads that the forces leave out.
 fn neglected(report: &StaticsReport) -> &'static str {
     match (report.weightless, report.rests.is_empty()) {
         (true, true) => "without weight and friction; ",

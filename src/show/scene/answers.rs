@@ -6,9 +6,7 @@ use crate::analysis::statics::StaticsReport;
 use crate::analysis::velocity::VelocityReport;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Mechanism, Point};
-
-/// Of the largest force or moment, what is rounding.
-const ROUNDING: f64 = 1e-9;
+use crate::number::tolerance::ROUNDING;
 
 impl Scene {
     /// Adds the instant centres beside the joints that are no farther from the mechanism than it is large.

@@ -19,7 +19,7 @@ use crate::algebra::SiUnit;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
-use crate::number::tolerance::ROUNDING;
+use crate::number::tolerance::{DOUBLE, ROUNDING};
 use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System, SystemWork};
 use real::{complex_key, key, order, tidied, tidied_complex};
@@ -316,7 +316,7 @@ impl TargetProblem<'_> {
             };
             // simple solutions are distinct already; an end where solutions meet and that could not be
             // refined has half the digits
-            let near = |y: &[C]| self.coordinates.within(1e-5 * (1.0 + size(x)), x, y);
+            let near = |y: &[C]| self.coordinates.within(DOUBLE * (1.0 + size(x)), x, y);
             match (groups.iter_mut()).find(|g| singular && g.singular && near(&g.x)) {
                 Some(group) => group.paths += 1,
                 None => {

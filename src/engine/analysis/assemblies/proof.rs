@@ -11,12 +11,10 @@ use super::family::Coordinates;
 use super::report::{Part, Proof, Range};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Interval, Number};
 use crate::solve::{Pruning, Sides, Watch, isolated, prune as prune_boxes};
 use crate::system::{Held, JointSpace, Unfit};
-
-/// Range of slides for which no bound follows, in characteristic lengths.
-const FAR: f64 = 1000.0;
 
 /// Looks for real assemblies beside those given with their numbers. What is held without an equation is where `asked`
 /// has it.
@@ -182,7 +180,7 @@ impl Space {
                     .iter()
                     .filter_map(|(j, length)| Some(bounds[*j]?.magnitude() * length));
                 // rounding of a few sums is far less than this
-                let longest = (fixed + others.sum::<f64>()) * (1.0 + 1e-9);
+                let longest = (fixed + others.sum::<f64>()) * (1.0 + ROUNDING);
                 let open: Vec<(usize, f64)> = open.copied().collect();
                 for (j, length) in open {
                     bounds[j] = Some(both_ways(longest / length));
@@ -206,7 +204,8 @@ impl Space {
                 (None, false) => {
                     let name = names[j].iter().map(|(name, _)| name.clone());
                     space.unbounded.extend(name);
-                    both_ways(FAR * mechanism.characteristic_length())
+                    // no bound follows for it
+                    both_ways(1000.0 * mechanism.characteristic_length())
                 }
             };
             let limited = joints.get(j).is_some_and(|joint| joint.limits.is_some());
@@ -254,7 +253,7 @@ fn joined(boxes: Vec<Sides>) -> Vec<Sides> {
             other
                 .iter()
                 .zip(&part)
-                .all(|(a, b)| a.low <= b.high + 1e-9 && b.low <= a.high + 1e-9)
+                .all(|(a, b)| a.low <= b.high + ROUNDING && b.low <= a.high + ROUNDING)
         }) {
             let other = parts.swap_remove(place);
             for (side, other) in part.iter_mut().zip(&other) {

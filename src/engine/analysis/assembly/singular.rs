@@ -3,8 +3,9 @@
 use super::Outcome;
 use crate::linear::{Svd, dot};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::STILL;
 use crate::solve::Equations;
-use crate::system::{Freedoms, Held, HeldPlatform, STILL, System, Unknown};
+use crate::system::{Freedoms, Held, HeldPlatform, System, Unknown};
 
 /// Names the joints and platforms that move although the inputs are held, the closure with dependent equations
 /// there, and the held joints that cannot drive the mechanism.

@@ -9,13 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use super::formula::{NamedValues, measured};
 use super::proof::{self, ComponentProof, Reason};
-use super::{ComponentQuantity, ComponentReport, NEAR_SINGULAR};
+use super::{ComponentQuantity, ComponentReport};
 use crate::algebra::{Expression, Function, Node, Operator};
 use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
 use crate::number::Interval;
-
-/// Joint values, rad or m, for which a divisor is shown to have no zero.
-const ANYWHERE: f64 = 1e9;
+use crate::number::tolerance::SAME;
 
 /// A formula in a closed form that must not be zero, and is not proved never to be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,7 +77,7 @@ impl ProofConditions {
         let differs = |formula: &Formula| {
             let scales = &mechanism.dimensions().joint_scales;
             let near = (joints.iter().zip(scales))
-                .map(|(joint, scale)| Interval::around(*joint, NEAR_SINGULAR * scale));
+                .map(|(joint, scale)| Interval::around(*joint, SAME * scale));
             is_not_zero(mechanism, form, formula, near.collect())
         };
         self.refuted |= hold && self.difference.as_ref().is_some_and(differs);
@@ -164,7 +162,8 @@ fn divisor(mechanism: &Mechanism, operation: &Formula) -> Option<Formula> {
 
 /// True if interval arithmetic shows that a formula is not zero at any joint values.
 fn is_never_zero(mechanism: &Mechanism, form: &ClosedForm, formula: &Formula) -> bool {
-    let anywhere = |_| Interval::around(0.0, ANYWHERE);
+    // in rad or m
+    let anywhere = |_| Interval::around(0.0, 1e9);
     let joints = mechanism.joints().iter().map(anywhere);
     is_not_zero(mechanism, form, formula, joints.collect())
 }

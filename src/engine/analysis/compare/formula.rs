@@ -1,9 +1,8 @@
 //! The values of a closed form's formulas.
 
-use super::NEAR_SINGULAR;
 use crate::algebra::{EvaluationError, Node, Operator};
 use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
-use crate::number::tolerance::SUMMED;
+use crate::number::tolerance::{SAME, SUMMED};
 use crate::number::{Dual, Number};
 
 /// Values of the names in a closed form at some joint values.
@@ -75,7 +74,7 @@ impl MeasuredFormula {
 
     /// True if it may be zero at the configuration that this one was solved for.
     pub fn is_zero(&self) -> bool {
-        self.value.abs() <= NEAR_SINGULAR * self.motion + SUMMED * self.terms
+        self.value.abs() <= SAME * self.motion + SUMMED * self.terms
     }
 }
 

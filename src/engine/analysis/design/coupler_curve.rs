@@ -9,6 +9,7 @@
 
 use rand_pcg::Pcg64;
 
+use crate::number::tolerance::ROUNDING;
 use crate::number::{C, Number};
 use crate::solve::monodromy::{ParametricSystem, followed, place, random};
 use crate::solve::{Homotopy, Stage, Tracker, Watch, each};
@@ -129,10 +130,9 @@ impl LinkCoefficients {
 
 /// True if D = 0, as where both links are one or both x or both x̄ vanish: such links meet the equations for any points.
 fn alike(both: &[LinkCoefficients; 2]) -> bool {
-    const ALIKE: f64 = 1e-18;
     let size = |of: &LinkCoefficients| of.0.iter().map(|x| x.norm_sqr()).sum::<f64>();
     let det = LinkCoefficients::parts(both)[2];
-    det.norm_sqr() <= ALIKE * size(&both[0]) * size(&both[1])
+    det.norm_sqr() <= ROUNDING * ROUNDING * size(&both[0]) * size(&both[1])
 }
 
 /// N₁N₂ − D² for one point, with its derivatives by the coordinates of the four-bar and by δ and δ̄.

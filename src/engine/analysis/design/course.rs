@@ -5,14 +5,12 @@ use std::ops::ControlFlow;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::SAME;
 use crate::solve::{Continuation, CurvePoint, SolutionCurve, Stage, StepFailure, Watch};
 use crate::system::{Curve, Event, Held, Segment, Walk};
 
 /// Steps after which a curve without end is given up.
 const MOST_STEPS: usize = 20_000;
-
-/// A position is met where the curve passes within this, in rad or characteristic lengths.
-const MET: f64 = 1e-7;
 
 /// The curve through the first of some positions.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -149,19 +147,20 @@ impl DesignWay<'_> {
             }
             let way = curve.difference_but_turns(&from.at, at);
             let s = dot(&way, &from.tangent);
-            if norm(&way) > 1.5 * size + MET || s < -MET || s > along + MET {
+            if norm(&way) > 1.5 * size + SAME || s < -SAME || s > along + SAME {
                 continue;
             }
             // beside the ends nothing lies between
-            let near = |place: &CoursePlace| norm(&curve.difference_but_turns(&place.at, at)) < MET;
+            let near =
+                |place: &CoursePlace| norm(&curve.difference_but_turns(&place.at, at)) < SAME;
             let place = match [&from, other].into_iter().find(|place| near(place)) {
                 Some(place) => Some(place.clone()),
                 None => self.method.across(curve, &from, s),
             };
             let Some(place) = place else { continue };
-            if norm(&curve.difference_but_turns(&place.at, at)) < MET {
+            if norm(&curve.difference_but_turns(&place.at, at)) < SAME {
                 let gone = leg.gone_at(curve, &place);
-                if end.is_none_or(|end| gone <= end + MET) {
+                if end.is_none_or(|end| gone <= end + SAME) {
                     *met = Some(sign * gone);
                 }
             }
@@ -214,7 +213,7 @@ impl DesignCourse {
                 part
             }
         };
-        let near = |s: f64| self.dead.iter().any(|dead| (dead - s).abs() < MET);
+        let near = |s: f64| self.dead.iter().any(|dead| (dead - s).abs() < SAME);
         let first = part(0.0);
         let positions = self.met.iter().enumerate();
         let beyond = positions.filter_map(|(i, s)| Some((i, (*s)?)));

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::search::{FoundEnd, SearchedEnds, Task};
 use super::symmetry::{Flip, Symmetries};
 use crate::mechanism::turn_near;
+use crate::number::tolerance::SAME;
 use crate::number::{C, Number};
 use crate::solve::monodromy::{Monodromy, ParametricSystem, Spread, followed, place, random};
 use crate::solve::{Homotopy, LevenbergMarquardt, Stage, Tracker, Watch, each};
@@ -317,10 +318,9 @@ impl Synthesis<'_, '_, '_> {
     /// Takes in a solution if it is real: of those that differ by signs and half turns the first that lies in the ranges, and each
     /// exchange.
     fn real(&self, alike: &[Vec<C>], exact: &mut Exact, searched: &mut SearchedEnds) {
-        const REAL: f64 = 1e-7;
         let is_real = |x: &[C]| {
             let size = x.iter().map(|x| x.norm_sqr()).fold(1.0, f64::max).sqrt();
-            x.iter().all(|x| x.im.abs() <= REAL * size)
+            x.iter().all(|x| x.im.abs() <= SAME * size)
         };
         if !alike.iter().any(|x| is_real(x)) {
             return;

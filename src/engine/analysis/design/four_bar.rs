@@ -11,6 +11,7 @@ use super::report::Cognate;
 use super::search::{EXACT, FoundEnd, SearchedEnds, Task};
 use crate::mechanism::Configuration;
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::SAME;
 use crate::number::{C, real};
 use crate::solve::{LeastSquares, LevenbergMarquardt, Watch, each};
 use crate::system::{Bundle, Bundled};
@@ -32,7 +33,6 @@ fn turned(of: &FourBar, (d, turn): (Z, C), part: usize) -> f64 {
 }
 
 fn is_real(of: &FourBar) -> bool {
-    const REAL: f64 = 1e-7;
     let vectors = of.pivots.iter().chain(&of.pins);
     let size = vectors
         .clone()
@@ -42,7 +42,7 @@ fn is_real(of: &FourBar) -> bool {
         .sqrt();
     vectors
         .into_iter()
-        .all(|z| (z[0] - z[1].conj()).norm_sqr().sqrt() <= REAL * size)
+        .all(|z| (z[0] - z[1].conj()).norm_sqr().sqrt() <= SAME * size)
 }
 
 impl Task<'_> {
@@ -210,7 +210,7 @@ impl Task<'_> {
                 .chain(&a.pins)
                 .zip(b.pivots.iter().chain(&b.pins));
             let mut apart = pairs.map(|(a, b)| (a[0] - b[0]).norm_sqr().sqrt());
-            apart.all(|apart| apart < 1e-6 * self.size)
+            apart.all(|apart| apart < SAME * self.size)
         };
         let listed = |of: &FourBar| {
             let same = |drawn: &Option<(FourBar, Z)>| {

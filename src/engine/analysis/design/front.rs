@@ -8,6 +8,9 @@ use crate::solve::Watch;
 /// Costs of a design by two goals; `None` for one that is none.
 pub type Costs<'a> = dyn Fn(&FoundEnd) -> Option<[f64; 2]> + Sync + 'a;
 
+/// Cost of a design that misses a condition, times one and more for how far it misses it.
+pub const MISSED: f64 = 1e30;
+
 /// A design with its costs.
 type CostedDesign = (FoundEnd, [f64; 2]);
 
@@ -24,14 +27,12 @@ impl Task<'_> {
     ) -> usize {
         /// Designs from which each search with a bound begins.
         const BEGUN: usize = 2;
-        /// A part of the range of the second cost by which a design must be better than another one.
-        const BETTER: f64 = 1e-6;
-        const ANY: f64 = f64::INFINITY;
         let both = |end: &FoundEnd| Some((end.clone(), costs(end)?));
         let mut known: Vec<CostedDesign> =
             self.open_ends(all).into_iter().filter_map(both).collect();
         let count = known.len().min(most);
-        let ends = [0, 1].map(|one| self.least(&mut known, (one, ANY), most, costs, watch));
+        let ends =
+            [0, 1].map(|one| self.least(&mut known, (one, f64::INFINITY), most, costs, watch));
         let [Some(first), Some((_, [_, lowest]))] = &ends else {
             return 0;
         };
@@ -47,7 +48,8 @@ impl Task<'_> {
             a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
         });
         all.found.clear();
-        let (mut least, better) = (ANY, BETTER * (highest - lowest));
+        // better by less than a millionth of the range is not better
+        let (mut least, better) = (f64::INFINITY, 1e-6 * (highest - lowest));
         for (end, both) in front {
             if both[1] < least - better {
                 least = both[1];
@@ -69,17 +71,15 @@ impl Task<'_> {
     ) -> Option<CostedDesign> {
         /// Sizes of the simplices, in units of the numbers.
         const SIZES: [f64; 2] = [5e-2, 1e-4];
-        /// Cost of a design beyond the bound, with how far it is beyond.
-        const BEYOND: f64 = 1e30;
         let cost = |both: [f64; 2]| match (both[1 - one] - bound) / (1.0 + bound.abs()) {
-            beyond if beyond > 0.0 => BEYOND * (1.0 + beyond),
+            beyond if beyond > 0.0 => MISSED * (1.0 + beyond),
             _ => both[one],
         };
         sort_by(known, |(_, a), (_, b)| cost(*a).total_cmp(&cost(*b)));
         let from = known.iter().take(begun);
         let from: Vec<_> = from.map(|(end, both)| (end.clone(), cost(*both))).collect();
         let ends = self.improved_all(&from, &SIZES, &|of| costs(of).map(cost), watch);
-        let (end, _) = ends.into_iter().find(|(_, cost)| *cost < BEYOND)?;
+        let (end, _) = ends.into_iter().find(|(_, cost)| *cost < MISSED)?;
         let found = (end.clone(), costs(&end)?);
         known.push(found.clone());
         Some(found)

@@ -95,8 +95,6 @@ impl Task<'_> {
     ) -> (FoundEnd, f64) {
         /// Rounds of one size at most.
         const ROUNDS: usize = 3;
-        /// A part of the cost that is worth another round.
-        const GAIN: f64 = 1e-4;
         let mut best = from.clone();
         let bundle = self.kept(&from.0.at.numbers);
         for size in sizes {
@@ -114,7 +112,8 @@ impl Task<'_> {
                     }
                     Some(costs)
                 });
-                if before - best.1 <= GAIN * before.abs() {
+                // so little is not worth another round
+                if before - best.1 <= 1e-4 * before.abs() {
                     break;
                 }
             }

@@ -228,7 +228,7 @@ pub struct DesignReport {
     /// The figure that is improved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub goal: Option<Goal>,
-    /// What is improved beside it: of the designs none is beaten in both.
+    /// The figure that is improved beside it: no design is beaten in both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_goal: Option<Goal>,
     /// Counts of the combinations of listed values that were tried, where numbers have lists.

@@ -1,6 +1,7 @@
 //! Changes under which a linkage stays the same: of the signs of lengths, of the senses of axes, and exchanges of links.
 
 use crate::mechanism::Mechanism;
+use crate::number::tolerance::{ROUNDING, SAME};
 use crate::number::{C, Number};
 use crate::solve::monodromy::place;
 
@@ -142,7 +143,7 @@ impl Symmetries {
             for flip in &self.group {
                 let image = flip.of(other, angles);
                 // generic numbers differ, so that each is found once
-                let near = |a: C, b: C| (a - b).norm_sqr() < 1e-12 * (1.0 + a.norm_sqr());
+                let near = |a: C, b: C| (a - b).norm_sqr() < SAME * SAME * (1.0 + a.norm_sqr());
                 let of = |i: usize| {
                     let mut places = (0..angles.len()).filter(|j| angles[*j] == angles[i]);
                     places.find(|j| near(first[*j], image[i]))
@@ -189,7 +190,6 @@ impl Symmetries {
         /// Numbers changed together at most, and changes tried at most: each is tried at one point.
         const WEIGHT: usize = 4;
         const MOST: usize = 40_000;
-        const CLOSED: f64 = 1e-9;
         let joints = mechanism.joints().iter();
         let turns: Vec<bool> = joints.map(|joint| joint.kind.is_angle()).collect();
         let places: Vec<usize> = (0..turns.len()).filter(|i| turns[*i]).collect();
@@ -241,7 +241,7 @@ impl Symmetries {
                     // half turns come first
                     flip.joints[*joint] = Sense::of(digit >> 1 | (digit & 1) << 1);
                 }
-                if residual(&self.flipped(x, &flip)) < CLOSED {
+                if residual(&self.flipped(x, &flip)) < ROUNDING {
                     let more: Vec<Flip> = group.iter().map(|of| of.after(&flip)).collect();
                     group.extend(more);
                     break;

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{EquilibriumReport, Start};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::SAME;
 use crate::number::{C, Number};
 use crate::solve::monodromy::{Monodromy, ParametricSystem, followed, place, random};
 use crate::solve::{Tracker, Watch, each};
@@ -204,7 +205,7 @@ impl Start<'_> {
                 all.multiple += 1;
                 continue;
             }
-            let is_real = key.iter().all(|x| x.im.abs() < 1e-8 * (1.0 + x.re.abs()));
+            let is_real = key.iter().all(|x| x.im.abs() < SAME * (1.0 + x.re.abs()));
             keys.push(key);
             if !is_real {
                 all.complex += 1;

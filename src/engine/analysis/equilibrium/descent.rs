@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::NoRest;
 use crate::linear::{Decomposition, dot, norm};
-use crate::number::tolerance::SUMMED;
+use crate::number::tolerance::{FIVE_POINTS, SAME, SUMMED};
 use crate::solve::walk_down;
 use crate::system::Dynamics;
 
@@ -12,8 +12,6 @@ use crate::system::Dynamics;
 pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
     /// Choices of coordinates and of the length of the first step.
     const ROUNDS: usize = 40;
-    /// The first step of a walk, in rad and characteristic lengths.
-    const FIRST: f64 = 0.3;
     for _ in 0..ROUNDS {
         let (forces, potential) = dynamics.at_rest()?;
         dynamics.stand();
@@ -27,8 +25,8 @@ pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
         }
         let start = dynamics.values(dynamics.configuration());
         let start: Vec<f64> = start.iter().zip(&units).map(|(x, unit)| x / unit).collect();
-        // the first step is as long as the gradient of the cost
-        let size = FIRST / slope;
+        // the first step is as long as the gradient of the cost: 0.3 rad or characteristic lengths
+        let size = 0.3 / slope;
         let shared = RefCell::new(&mut *dynamics);
         let here = |x: &[f64]| {
             let mut dynamics = shared.borrow_mut();
@@ -67,10 +65,6 @@ pub(super) fn fall(dynamics: &mut Dynamics, sign: f64) -> Result<(), NoRest> {
 /// Newton's method for Q(q) = 0, with steps of at most 0.3 rad and characteristic lengths.
 pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
     const STEPS: usize = 60;
-    const LONGEST: f64 = 0.3;
-    /// A step shorter than this arrives, if no more than this part of the forces that act is left.
-    const ARRIVED: f64 = 1e-11;
-    const LEFT: f64 = 1e-6;
     for _ in 0..STEPS {
         let (forces, _) = dynamics.at_rest()?;
         dynamics.stand();
@@ -83,8 +77,8 @@ pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
         let mut step = Decomposition::of(free, free, &hessian).solve(&forces);
         let long = step.iter().zip(&units).map(|(x, unit)| (x / unit).abs());
         let long = long.fold(0.0, f64::max);
-        if long > LONGEST {
-            step.iter_mut().for_each(|x| *x *= LONGEST / long);
+        if long > 0.3 {
+            step.iter_mut().for_each(|x| *x *= 0.3 / long);
         }
         let values = dynamics.values(dynamics.configuration());
         let to: Vec<f64> = values.iter().zip(&step).map(|(a, b)| a + b).collect();
@@ -92,10 +86,10 @@ pub(super) fn settle(dynamics: &mut Dynamics) -> Result<(), NoRest> {
             return Err(NoRest::Endless);
         }
         dynamics.stand();
-        if long < ARRIVED {
-            // where the energy falls evenly no step leads anywhere
+        if long < 1e-11 {
+            // arrived; where the energy falls evenly no step leads anywhere, and more than rounding of the forces is left
             let left = norm(&scaled(&forces, &units));
-            let rests = left <= LEFT * dynamics.size();
+            let rests = left <= 1e-6 * dynamics.size();
             return rests.then_some(()).ok_or(NoRest::Endless);
         }
         let still = vec![0.0; free];
@@ -115,7 +109,6 @@ fn is_balanced(dynamics: &Dynamics, forces: &[f64]) -> bool {
 
 /// True if the forces are so small that the rest position is within 1e-6 rad and characteristic lengths.
 fn is_near_rest(dynamics: &mut Dynamics, forces: &[f64]) -> bool {
-    const NEAR: f64 = 1e-6;
     let units = dynamics.units();
     let Ok(hessian) = hessian(dynamics) else {
         return false;
@@ -130,26 +123,25 @@ fn is_near_rest(dynamics: &mut Dynamics, forces: &[f64]) -> bool {
     met && step
         .iter()
         .zip(&units)
-        .all(|(x, unit)| (x / unit).abs() < NEAR)
+        .all(|(x, unit)| (x / unit).abs() < SAME)
 }
 
 /// −∂Q/∂q at the base, row by row and symmetric, by central differences of fourth order.
 pub(super) fn hessian(dynamics: &mut Dynamics) -> Result<Vec<f64>, NoRest> {
-    const STEP: f64 = 1e-3;
     let units = dynamics.units();
     let free = units.len();
     let base = dynamics.values(dynamics.base());
     let mut columns = vec![0.0; free * free];
     for (i, unit) in units.iter().enumerate() {
-        for (steps, weight) in [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)] {
+        for (length, weight) in FIVE_POINTS {
             let mut to = base.clone();
-            to[i] += steps * STEP * unit;
+            to[i] += length * unit;
             if !dynamics.close(&to) {
                 return Err(NoRest::Endless);
             }
             let (forces, _) = dynamics.at_rest()?;
             for (row, force) in forces.iter().enumerate() {
-                columns[row * free + i] -= weight * force / (12.0 * STEP * unit);
+                columns[row * free + i] -= weight * force / unit;
             }
         }
     }

@@ -63,8 +63,6 @@ pub(super) fn position(
     mechanism: &Mechanism,
     dynamics: &mut Dynamics,
 ) -> Result<RestPosition, NoRest> {
-    /// A curvature smaller than this part of the forces that act, times the normalising length, is none.
-    const FLAT: f64 = 1e-8;
     let hessian = descent::hessian(dynamics)?;
     let mass = dynamics.mass().ok_or(NoRest::Singular)?;
     let (forces, potential) = dynamics.at_rest()?;
@@ -75,7 +73,8 @@ pub(super) fn position(
         hessian[i * free + j] * units[i] * units[j]
     });
     let curvatures = scaled.symmetric_eigenvalues();
-    let flat = FLAT * dynamics.size();
+    // a smaller curvature is rounding of the forces that act
+    let flat = 1e-8 * dynamics.size();
     let below = curvatures.iter().filter(|x| **x < -flat).count();
     let level = curvatures.iter().filter(|x| x.abs() <= flat).count();
     let stability = match (below, level) {
@@ -165,17 +164,16 @@ fn modes(
     modes
 }
 
-/// Configurations of an oscillation, from end to end.
+/// Configurations of an oscillation, from end to end, 0.2 rad or characteristic lengths to either side.
 fn swing(
     dynamics: &mut Dynamics,
     base: &[f64],
     amplitudes: &[f64],
     far: f64,
 ) -> Vec<Configuration<f64>> {
-    const WIDE: f64 = 0.2;
     let place = |k: i32| {
         let mut to = base.to_vec();
-        add(&mut to, WIDE * f64::from(k) / (4.0 * far), amplitudes);
+        add(&mut to, 0.2 * f64::from(k) / (4.0 * far), amplitudes);
         (dynamics.close(&to)).then(|| dynamics.configuration().clone())
     };
     (-4..=4).filter_map(place).collect()

@@ -11,15 +11,8 @@ use super::Character;
 use crate::linear::orthonormal;
 use crate::number::sorting::sort_by_key;
 use crate::solve::{Stage, Watch};
-use crate::system::{Cone, Neighbourhood, Tangent, independent_parts};
+use crate::system::{Cone, Neighbourhood, SET_STEP, Tangent, independent_parts};
 use walk::{BranchWalk, MOVED_ON_A_BRANCH, Seen, WalkDirections, contains, same};
-
-/// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
-/// motion that is only infinitesimal to second order leaves a gap of about its square.
-pub(super) const STEP: f64 = 0.05;
-
-/// Length of the steps by which branches are sought where it is not.
-const BRANCH_STEP: f64 = 0.02;
 
 /// Steps per infinitesimal freedom by which branches are sought.
 const BRANCH_TRIALS: usize = 8;
@@ -62,8 +55,6 @@ impl LocalBranch {
     /// Branches in this order do not depend on random directions: the largest first, then by what the projection onto
     /// their motions, which is the same for every basis, makes of a fixed direction.
     fn order(&self) -> (Reverse<usize>, Vec<Reverse<i64>>) {
-        /// Tangents are known better than this.
-        const KNOWN: f64 = 1e-2;
         // uneven, so that it is not the same to branches that mirror one another
         let fixed = |i: usize| 1.0 + (0.618 * i as f64).fract();
         let mut made = vec![0.0; self.moved.len()];
@@ -71,7 +62,8 @@ impl LocalBranch {
             let along: f64 = (motion.iter().enumerate()).map(|(i, x)| fixed(i) * x).sum();
             (made.iter_mut().zip(motion)).for_each(|(made, x)| *made += along * x);
         }
-        let key = made.iter().map(|x| Reverse((x / KNOWN).round() as i64));
+        // tangents are known better than to a hundredth
+        let key = made.iter().map(|x| Reverse((x / 1e-2).round() as i64));
         (Reverse(self.freedoms), key.collect())
     }
 }
@@ -182,11 +174,11 @@ impl FiniteSearch<'_, '_> {
         let n = tangent.motions.len();
         let watch = self.watch;
         let cone = Cone::of(self.near, tangent);
-        if let Some(set) = cone.set(self.near, tangent, BRANCH_STEP, &mut self.rng) {
+        if let Some(set) = cone.set(self.near, tangent, SET_STEP, &mut self.rng) {
             let mut moved = vec![false; tangent.columns()];
             for at in &set.beside {
                 let way = self.near.system().difference(&tangent.at, at);
-                see(&mut moved, &way, MOVED_ON_A_BRANCH * BRANCH_STEP);
+                see(&mut moved, &way, MOVED_ON_A_BRANCH * SET_STEP);
             }
             let branch = LocalBranch {
                 freedoms: set.motions.len(),
@@ -286,7 +278,6 @@ struct Limit {
 
 /// True if the tangent of a branch at the meeting point is a curved cone: steps leave its span.
 fn is_curved(walk: &mut BranchWalk, cone: &Cone, motions: &[Vec<f64>]) -> bool {
-    const STEP: f64 = 0.02;
     if !cone.is_all() {
         return !cone.contains_all(motions);
     }
@@ -294,7 +285,7 @@ fn is_curved(walk: &mut BranchWalk, cone: &Cone, motions: &[Vec<f64>]) -> bool {
         motions: motions.to_vec(),
         ..walk.from.clone()
     };
-    !walk.fills(&along, STEP)
+    !walk.fills(&along, SET_STEP)
 }
 
 /// The branches that were seen, and their share of all that can be: 1 if there are certainly no others, 0 if not known.

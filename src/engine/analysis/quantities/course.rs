@@ -11,6 +11,7 @@ use super::meter::{Meter, Name, evaluated, has_atan2, turns};
 use crate::algebra::Expression;
 use crate::analysis::sweep::{MetKind, Passage, Row, Stretch};
 use crate::mechanism::{Configuration, Quantity};
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, Taylor};
 
 /// The curve that a motion follows, whatever rows are asked for: pieces so short that all names in the quantities are
@@ -241,7 +242,7 @@ impl<'m> Course<'m> {
     /// True if a piece may hide values of a quantity: a name in it is no polynomial there, and it is not a mere place.
     pub fn hides(&self, of: &Sought, piece: usize) -> bool {
         let [begin, end] = self.pieces[piece].span;
-        self.is_rough(of, piece) && end - begin > 1e-9
+        self.is_rough(of, piece) && end - begin > ROUNDING
     }
 
     fn has(&self, of: &Sought, piece: usize, fitted: FitQuality) -> bool {
@@ -261,16 +262,15 @@ impl<'m> Course<'m> {
 
     /// The part of a stretch on either side of a place of a piece where the best value near it may be.
     pub fn beside(&self, of: &Sought, piece: usize) -> Option<f64> {
-        /// As a part of the piece.
-        const BESIDE: f64 = 0.02;
         if self.is_continued(of, piece) {
             return None;
         }
-        // the polynomial of a piece with a kink may not reach up to it, and then a neighbour has the best value
+        // a fiftieth of the piece; the polynomial of one with a kink may not reach up to it, and then a neighbour has the best
+        // value
         let kinked = (piece.saturating_sub(1)..(piece + 2).min(self.pieces.len()))
             .filter(|k| self.has(of, *k, FitQuality::Rounded))
             .map(|k| self.width(k));
-        Some(kinked.fold(BESIDE * self.width(piece), f64::max))
+        Some(kinked.fold(0.02 * self.width(piece), f64::max))
     }
 
     /// True if names do not differ by more than rounding from one end of a part to the other.

@@ -29,8 +29,6 @@ const PARTS: usize = 4;
 
 /// The means of a quantity, unless it has no value somewhere, or too much of the curve is no polynomial.
 pub(super) fn means(course: &Course, of: &Sought) -> Option<Means> {
-    /// The part of the time that may be lost at kinks.
-    const LOST: f64 = 1e-6;
     if !course.whole || !course.is_driven() || course.pieces.is_empty() {
         return None;
     }
@@ -61,7 +59,8 @@ pub(super) fn means(course: &Course, of: &Sought) -> Option<Means> {
             _ => lost += long.abs(),
         }
     }
-    if !(time > 0.0 && lost <= LOST * time) {
+    // a millionth of the time may be lost at kinks
+    if !(time > 0.0 && lost <= 1e-6 * time) {
         return None;
     }
     let mean = sums[0] / time;

@@ -1,6 +1,7 @@
 //! The least largest change that meets linear conditions.
 
 use crate::linear::{Svd, add, dot};
+use crate::number::tolerance::SOLVED;
 
 /// The least largest |δ| of all δ that meet the conditions which a change meets: rows of coefficients, what is left of them at
 /// their end. Weighted least squares come near it from above, in which changes that are large cost more from one round to the next
@@ -26,7 +27,7 @@ pub(super) fn least_largest(rows: &[Vec<f64>], change: &[f64]) -> f64 {
         let counted = svd.values.iter().take(count.min(numbers));
         for (i, value) in counted
             .enumerate()
-            .filter(|(_, value)| **value > 1e-12 * svd.values[0])
+            .filter(|(_, value)| **value > SOLVED * svd.values[0])
         {
             add(
                 &mut scaled,

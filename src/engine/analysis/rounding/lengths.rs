@@ -7,6 +7,7 @@ use crate::description::WrittenVector;
 use crate::geometry::Vector3;
 use crate::linear::Decomposition;
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::ROUNDING;
 
 /// A length with the most by which it is off.
 type UncertainLength = (f64, f64);
@@ -41,11 +42,10 @@ struct DrawnJoint {
 impl DrawnJoint {
     /// The shortest way from its axis or centre to those of another.
     fn apart(&self, other: &DrawnJoint) -> Vector3<f64> {
-        const PARALLEL: f64 = 1e-9;
         let way = other.at - self.at;
         let across = |way: Vector3<f64>, along: Vector3<f64>| way - along.scaled(way.dot(&along));
         match (self.along, other.along) {
-            (Some(a), Some(b)) if a.cross(&b).norm() > PARALLEL => {
+            (Some(a), Some(b)) if a.cross(&b).norm() > ROUNDING => {
                 let normal = a.cross(&b);
                 normal.scaled(way.dot(&normal) / normal.dot(&normal))
             }
@@ -56,7 +56,7 @@ impl DrawnJoint {
 }
 
 impl Numbers<'_> {
-    /// What a part means, with the lengths that are equal but for their rounding; empty if there are none.
+    /// The numbers that a part means, with the lengths that are equal but for their rounding; empty if there are none.
     pub(super) fn equal(&self, part: &LinkedLoops, meant: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let mut all = match self.description.coordinates.is_some() {
             true => self.equal_links(part, meant).unwrap_or_default(),

@@ -19,8 +19,6 @@ pub(super) struct LinkedLoops {
 impl LinkedLoops {
     /// The parts of a mechanism with numbers of these indices among its parameters.
     pub fn of(mechanism: &Mechanism, numbers: &[(usize, f64)]) -> Option<Vec<LinkedLoops>> {
-        /// A part of a number's own size: what is less comes from loops that are not quite closed.
-        const COUNTS: f64 = 1e-3;
         let bundle = Bundle::new(mechanism, Held::nothing(mechanism), numbers);
         let file = bundle.file();
         let system = bundle.equations::<f64>(&file)?;
@@ -41,7 +39,8 @@ impl LinkedLoops {
             let (joints, platforms) = mechanism.within_loop(closure);
             let touches = |(k, (_, size)): (usize, &(usize, f64))| {
                 let column = &columns[k * system.rows()..][rows[i].clone()];
-                column.iter().any(|x| x.abs() > COUNTS * size).then_some(k)
+                // less, beside the size of the number, comes from loops that are not quite closed
+                column.iter().any(|x| x.abs() > 1e-3 * size).then_some(k)
             };
             let mut part = LinkedLoops {
                 closures: vec![i],

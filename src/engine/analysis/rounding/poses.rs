@@ -1,4 +1,4 @@
-//! How far numbers are off that were computed from poses whose numbers are off by 1.
+//! Errors of numbers that were computed from poses whose numbers are off by 1.
 
 use std::collections::HashMap;
 
@@ -10,9 +10,6 @@ const TURN: f64 = 4.0;
 
 /// The distance of two points.
 const SHIFT: f64 = 2.0;
-
-/// An axis that is turned less against the one before has no certain offset.
-const PARALLEL: f64 = 0.05;
 
 /// For each literal of a description the most by which it is off, in these parts.
 pub(super) fn sizes(description: &Description, literals: &[Literal]) -> Vec<f64> {
@@ -37,7 +34,8 @@ pub(super) fn sizes(description: &Description, literals: &[Literal]) -> Vec<f64>
             let normal = SHIFT + TURN * offsets.fold(0.0, f64::max);
             let normals = near.iter().map(|row| {
                 let sine = crate::number::real::sin(size(&row.alpha)).abs();
-                let over = if sine > PARALLEL { 1.0 / sine } else { 1.0 };
+                // an axis that is turned less against the one before has no certain offset
+                let over = if sine > 0.05 { 1.0 / sine } else { 1.0 };
                 (SHIFT + TURN * size(&row.a).abs()) * over
             });
             let offset = normals.fold(SHIFT, f64::max);

@@ -2,6 +2,7 @@
 
 use crate::linear::{Svd, add, dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::LONGEST_STEP;
 use crate::solve::Equations;
 use crate::system::{Bundle, Bundled, System, SystemWork};
 
@@ -42,9 +43,6 @@ fn nearest(
     counts: impl Fn(&[f64]) -> usize,
 ) -> (Configuration<f64>, f64, Svd) {
     const ROUNDS: usize = 40;
-    const LONGEST: f64 = 0.3;
-    /// A step that brings nothing and is shorter is the last.
-    const SHORT: f64 = 1e-8;
     let mut best: Option<(f64, Configuration<f64>, f64, Svd)> = None;
     let mut stale = 0;
     for _ in 0..ROUNDS {
@@ -68,10 +66,11 @@ fn nearest(
         {
             best = Some((size.squares, at.clone(), size.largest, svd));
         }
-        if stale > 3 || stale > 0 && long < SHORT || long < 1e-15 || !long.is_finite() {
+        // a step that brings nothing and is short is the last
+        if stale > 3 || stale > 0 && long < 1e-8 || long < 1e-15 || !long.is_finite() {
             break;
         }
-        let factor = (LONGEST / long).min(1.0);
+        let factor = (LONGEST_STEP / long).min(1.0);
         step.iter_mut().for_each(|x| *x *= factor);
         at = system.displaced(&at, &step);
     }

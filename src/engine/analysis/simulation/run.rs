@@ -10,7 +10,7 @@ use super::{
     EnergyBalance, Happened, SimulationEnd, SimulationEvent, SimulationReport, SimulationSettings,
     Speed,
 };
-use across::across;
+use across::{NEARLY_SINGULAR, across};
 use events::EarliestEvent;
 
 use crate::algebra::SiUnit;
@@ -334,17 +334,14 @@ impl<'a, 'd> Run<'a, 'd> {
     /// The factor of the rates that brings kinetic and potential energy into balance with the work, where the kinetic energy
     /// is not small and steps have changed the balance by more than rounding.
     fn projection(&mut self, instant: &Accelerated) -> Option<f64> {
-        /// Part of the largest kinetic energy that may be missing.
-        const KEPT: f64 = 1e-11;
-        /// Part of it below which the kinetic energy is small.
-        const SMALL: f64 = 0.1;
         let energy = &mut self.energy;
         let supplied = self.state.last().copied().unwrap_or(0.0);
         let sum = instant.kinetic + instant.potential;
         let missing = energy.start + supplied - energy.lost - sum;
         let rounding = SUMMED * (instant.potential.abs() + energy.kinetic);
-        let wanted = missing.abs() > (KEPT * energy.kinetic).max(rounding)
-            && instant.kinetic > SMALL * energy.kinetic
+        // beside the largest kinetic energy
+        let wanted = missing.abs() > (1e-11 * energy.kinetic).max(rounding)
+            && instant.kinetic > 0.1 * energy.kinetic
             && self.settings.speeds.is_empty();
         wanted.then(|| {
             energy.corrected += missing.abs();
@@ -354,10 +351,8 @@ impl<'a, 'd> Run<'a, 'd> {
 
     /// The reason for which no further step is possible.
     fn stuck(&mut self, integrator: &Integrator) -> SimulationEnd {
-        /// Less than this part of the largest margin is a singular configuration.
-        const SINGULAR: f64 = 0.03;
         self.dynamics.close(&self.laws.values(integrator.state()));
-        match self.dynamics.margin() < SINGULAR * self.widest {
+        match self.dynamics.margin() < NEARLY_SINGULAR * self.widest {
             true => SimulationEnd::Singular,
             false => SimulationEnd::Stuck,
         }

@@ -11,6 +11,7 @@ use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::{ROUNDING, SAME};
 use crate::solve::{Continuation, CurvePoint, SolutionCurve, Stage, Watch};
 use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, SweepEnd, Walk};
 
@@ -143,7 +144,7 @@ pub fn along(
                 let apart = (last.joints.iter().zip(&met.place.at.joints))
                     .map(|(a, b)| (a - b).abs())
                     .fold(0.0, f64::max);
-                apart < 1e-9 && last.part == report.part
+                apart < ROUNDING && last.part == report.part
             });
             if !known && (met.fold || met.branches || met.vanishes) {
                 let found = search.crossing(curve, &met.place.at, met.fold, met.branches);
@@ -186,9 +187,6 @@ struct MetPlace {
     end: Option<Event>,
 }
 
-/// Places this near are the same.
-const SAME: f64 = 1e-7;
-
 struct Tests<'m> {
     mechanism: &'m Mechanism,
     classifier: Classifier<'m>,
@@ -202,7 +200,7 @@ impl Tests<'_> {
         for (place, event) in &step.events {
             let ends = match event {
                 // a turn of what is moved closes the curve and is not the end of the motion
-                Event::Closed => curve.part(&place.at).abs() < 1e-9,
+                Event::Closed => curve.part(&place.at).abs() < ROUNDING,
                 event => event.ends(),
             };
             let (fold, branches) = (

@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::linear::{Decomposition, orthonormal, remove, singular_values};
 use crate::mechanism::{Configuration, Figure, Mechanism};
+use crate::number::tolerance::STILL;
 use crate::system::{
-    Coordinate, Lock, Locked, Neighbourhood, RegularFreedoms, STILL, Screw, TwistSpace, Unknown,
+    Coordinate, Lock, Locked, Neighbourhood, RegularFreedoms, Screw, TwistSpace, Unknown,
 };
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.

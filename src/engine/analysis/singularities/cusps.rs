@@ -2,7 +2,7 @@
 
 use super::extents::SingularPlace;
 use crate::linear::{dot, norm};
-use crate::number::tolerance::{DOUBLE, ROUNDING};
+use crate::number::tolerance::{DOUBLE, ROUNDING, STILL};
 use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
 /// Cusps of a curve: places at which the gained motion v is possible to second order too, with M(x) v = 0 and (∂M/∂v) v
@@ -16,8 +16,6 @@ pub(super) fn cusps(
     region: &Region,
     traced: &Traced<Singular>,
 ) -> Vec<SingularPlace> {
-    /// A bend below this is rounding: v leads on along a whole motion.
-    const STILL: f64 = 1e-7;
     let bends: Vec<Vec<f64>> = (traced.places.iter())
         .map(|place| curve.bend(&place.at))
         .collect();
@@ -26,6 +24,7 @@ pub(super) fn cusps(
                     from: (&SingularPlace, &[f64]),
                     to: (&SingularPlace, &[f64])| {
         let turned = dot(from.1, to.1) < 0.0;
+        // without a bend v leads on along a whole motion
         if !turned || norm(from.1).max(norm(to.1)) < STILL {
             return turned;
         }

@@ -1,5 +1,6 @@
 //! The extents of a locus in the coordinates of the box.
 
+use crate::number::tolerance::STILL;
 use crate::solve::CurvePoint;
 use crate::system::{ConfigurationCurve, Driven, LocusCurve, Region, Singular, Traced};
 
@@ -36,10 +37,6 @@ fn turning(
     from: &SingularPlace,
     to: &SingularPlace,
 ) -> Option<SingularPlace> {
-    /// Rates below this are those of a coordinate that stands still.
-    const STILL: f64 = 1e-8;
-    /// Within this of the turn the coordinate is off by its square.
-    const THERE: f64 = 1e-6;
     let mut rate = |curve: &mut LocusCurve, place: &SingularPlace| {
         curve
             .closed()
@@ -50,11 +47,11 @@ fn turning(
         return None;
     }
     let found = region.method.root(curve, from, to, &mut rate);
-    if rate(curve, &found).abs() < THERE {
+    if rate(curve, &found).abs() < STILL {
         return Some(found);
     }
     // where others cross between them, only one of both leads to the turn by sure steps
     let (from, to) = (to.clone().reversed(), from.clone().reversed());
     let found = region.method.root(curve, &from, &to, &mut rate);
-    (rate(curve, &found).abs() < THERE).then_some(found)
+    (rate(curve, &found).abs() < STILL).then_some(found)
 }

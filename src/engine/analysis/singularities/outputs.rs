@@ -6,7 +6,7 @@ use super::SingularitiesSettings;
 use super::classify::Classifier;
 use crate::linear::{norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Frame, Mechanism, PoseCoordinate};
-use crate::number::tolerance::SAME;
+use crate::number::tolerance::{SAME, STILL};
 use crate::system::{
     Coordinate, Driven, Held, Lock, Locked, RegularFreedoms, default_outputs, platform_outputs,
 };
@@ -93,5 +93,5 @@ pub(super) fn coupled(
 fn twists(mechanism: &Mechanism, frame: Frame, at: &Configuration<f64>) -> Vec<Vec<f64>> {
     let motions = Locked::new(mechanism, &[]).decomposition(at).null_space();
     let mut locked = Locked::new(mechanism, &[Lock::Frame(frame)]);
-    orthonormal(&locked.rates(at, &motions), 1e-6)
+    orthonormal(&locked.rates(at, &motions), STILL)
 }

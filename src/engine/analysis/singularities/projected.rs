@@ -118,15 +118,14 @@ impl<'t> Projection<'t> {
     ///
     /// Near a crossing of curves a point may be lost to rounding, so that one of three neighbours suffices.
     fn covers(&self, other: &Projection, curve: &mut LocusCurve, region: &Region) -> bool {
-        /// Points that are tested, and parts of the distance between two of them.
+        /// Points that are tested.
         const TRIED: usize = 12;
-        const PARTS: f64 = 10.0;
         if self.kind != other.kind || self.shape() != other.shape() {
             return false;
         }
         (0..=TRIED).all(|k| {
             let place = k as f64;
-            let near = [0.0, 1.0 / PARTS, -1.0 / PARTS].map(|aside| match k {
+            let near = [0.0_f64, 0.1, -0.1].map(|aside| match k {
                 TRIED => place - aside.abs(),
                 _ => (place + aside).abs(),
             });

@@ -220,12 +220,11 @@ impl LocusSearch<'_> {
     }
 
     fn near_box(&self, at: &Configuration<f64>) -> bool {
-        /// Part of the box.
-        const BESIDE: f64 = 0.1;
         let mut at = at.clone();
         self.bring_home(&mut at);
         self.region.sides.iter().all(|side| {
-            let (x, slack) = (self.region.side(&at, side), BESIDE * (side.to - side.from));
+            // within a tenth of the box
+            let (x, slack) = (self.region.side(&at, side), 0.1 * (side.to - side.from));
             x >= side.from - slack && x <= side.to + slack
         })
     }

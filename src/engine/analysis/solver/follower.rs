@@ -11,16 +11,11 @@ use super::curvature::Curvature;
 use super::{NoSolver, StateVariable, VariablePlan};
 use crate::algebra::{BATCH, Registers, record};
 use crate::mechanism::Configuration;
+use crate::number::tolerance::{LONGEST_STEP, SOLVED};
 use crate::number::widest;
 use crate::system::{Coordinate, LaneProgram, Mask, Question, assign, bits};
 use certain::{Certain, LaneJacobians};
 use past::Past;
-
-/// A point is a solution when the root of the sum of the squares of all dimensionless rows does not exceed this.
-const TOLERANCE: f64 = 1e-12;
-
-/// The longest step of all unknowns together, in rad and characteristic lengths: longer ones may lead to another branch.
-const LONGEST_STEP: f64 = 0.5;
 
 /// Steps after which a motion is lost. Each must halve the rows, or the motion is lost before.
 const MOST_STEPS: usize = 12;
@@ -189,7 +184,7 @@ impl<'a> Follower<'a> {
             past,
             certain,
         } = motions;
-        let square = TOLERANCE.powi(2);
+        let square = SOLVED.powi(2);
         let going = going.map(bits);
         predict(past, &going, registers);
         let (mut solved, mut last) = ([0; BATCH], [f64::INFINITY; BATCH]);

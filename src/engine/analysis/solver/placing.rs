@@ -17,9 +17,6 @@ use crate::mechanism::{
 use crate::number::Number;
 use crate::system::{Held, HeldPlatform};
 
-/// The height of the triangle of balls is at least this part of its longest side.
-const PART: f64 = 0.1;
-
 /// A platform that three spherical closures place.
 pub(super) struct Placing {
     pub platform: usize,
@@ -84,7 +81,8 @@ impl Placing {
             balls,
         };
         let [_, _, normal] = edges(&balls);
-        (normal.norm() > PART * placing.longest().powi(2)).then_some(placing)
+        // the triangle of balls is at least a tenth of its longest side high
+        (normal.norm() > 0.1 * placing.longest().powi(2)).then_some(placing)
     }
 
     fn side(&self, i: usize) -> f64 {

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::At;
 use crate::mechanism::{Mechanism, Role};
+use crate::number::tolerance::ROUNDING;
 use crate::solve::{Continuation, Stage, Watch};
 use crate::system::{Coordinate, Curve, Event, Walk};
 
@@ -38,7 +39,7 @@ pub(super) fn forwards(mechanism: &Mechanism, curve: &Curve, place: At) -> At {
     let platforms = Coordinate::all(mechanism).filter(|of| of.platform().is_some());
     let of_platform = |of| curve.rate(&place.at, &place.tangent, of);
     let mut rates = ordered.map(rate).chain(platforms.map(of_platform));
-    let first = rates.find(|rate| rate.abs() > 1e-9);
+    let first = rates.find(|rate| rate.abs() > ROUNDING);
     match first.is_some_and(|rate| rate < 0.0) {
         true => place.reversed(),
         false => place,

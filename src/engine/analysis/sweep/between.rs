@@ -119,8 +119,6 @@ impl<'m> Passage<'m> {
     /// The piece between two places with the parts of the time there; beside a fold, where the inputs stand still, they
     /// cannot be prescribed.
     pub fn stretch(&self, ends: [Configuration<f64>; 2], times: [f64; 2], fold: bool) -> Stretch {
-        /// Inputs that move less than this part of the largest motion are nearly at a fold.
-        const SLOW: f64 = 0.05;
         let both = [&ends[0], &ends[1]];
         let goes = |of: Coordinate, scale: f64| self.change(of, both).abs() / scale;
         let most = |joints: bool| {
@@ -138,7 +136,8 @@ impl<'m> Passage<'m> {
         let slow = inputs
             .map(|of| goes(of.coordinate, of.coordinate.scale(self.mechanism)))
             .fold(0.0, f64::max)
-            <= most.map_or(0.0, |most| SLOW * goes(most.0, most.1));
+            // so slow beside the largest motion, they are nearly at a fold
+            <= most.map_or(0.0, |most| 0.05 * goes(most.0, most.1));
         let along = match (self.inputs, self.schedule) {
             ([_], None) if !fold && !slow => None,
             ([] | [_], None) => most.map(|(of, _)| Driven {

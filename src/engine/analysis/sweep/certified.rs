@@ -192,14 +192,13 @@ impl<'m> RowCertifier<'m> {
 
     /// Notes a part that is not certified; a certified stretch between two such parts and not much longer is theirs.
     fn note(&mut self, from: &ExactPlace, to: &ExactPlace) {
-        const MUCH: f64 = 10.0;
         let apart = |a: &[f64], b: &[f64]| {
             let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs());
             apart.fold(0.0, f64::max)
         };
         let (start, end) = (&from.inputs, &to.inputs);
         match self.certificate.uncertified.last_mut() {
-            Some(last) if apart(&last.to, start) <= MUCH * apart(start, end) => {
+            Some(last) if apart(&last.to, start) <= 10.0 * apart(start, end) => {
                 last.to.clone_from(end);
             }
             _ => self.certificate.uncertified.push(Uncertified {
@@ -251,12 +250,11 @@ impl ExactPlace {
 
 /// A box round two places, wider than the way between them is long; `None` if that is not finite.
 fn around(from: &ExactPlace, to: &ExactPlace) -> Option<Sides> {
-    const MARGIN: f64 = 0.3;
     let pairs = || from.variables.iter().zip(&to.variables);
     let way = pairs().map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let side = |(a, b): (&f64, &f64)| {
         let half = 0.5 * (a - b).abs();
-        Interval::around(0.5 * (a + b), half + MARGIN * way + 4.0 * EXACT)
+        Interval::around(0.5 * (a + b), half + 0.3 * way + 4.0 * EXACT)
     };
     way.is_finite().then(|| pairs().map(side).collect())
 }

@@ -19,11 +19,12 @@ use super::At;
 use super::paths::Tracer;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint};
+use crate::number::tolerance::SAME;
 use crate::solve::{Continuation, Watch};
 use crate::system::{Coordinate, Curve, Held, Still};
 use class::{class, grashof};
 use course::JointCourse;
-use tracing::{FoundCurve, SAME, Tracing};
+use tracing::{FoundCurve, Tracing};
 
 /// Settings of a search for circuits.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::{ROUNDING, SUMMED};
 use crate::solve::summit;
 
 /// The longest part of a motion over which a quantity stays within a tolerance of one value.
@@ -110,7 +111,7 @@ fn stay(
     for [_, value] in ends.into_iter().filter_map(&mut *at).chain(inside) {
         (low, high) = (low.min(value), high.max(value));
     }
-    let value = match high - low < width * (1.0 - 1e-9) {
+    let value = match high - low < width * (1.0 - ROUNDING) {
         true => 0.5 * (low + high),
         false => base + tolerance,
     };
@@ -175,7 +176,7 @@ fn windows(samples: &[Sample], width: f64) -> Vec<[usize; 2]> {
 
 /// Places at which a band is left, before and after a sample in it.
 fn ends(samples: &[Sample], core: usize, [low, high]: [f64; 2], at: &mut ValueAt) -> [f64; 2] {
-    let slack = 1e-13 * low.abs().max(high.abs());
+    let slack = SUMMED * low.abs().max(high.abs());
     let beyond = |value: f64| match value {
         _ if value > high + slack => Some(high),
         _ if value < low - slack => Some(low),

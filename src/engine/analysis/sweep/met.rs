@@ -6,6 +6,7 @@ use super::{At, SweepEnd, SweepReport};
 use crate::algebra::SiUnit;
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism, NamedPoint, Role};
+use crate::number::tolerance::STILL;
 use crate::solve::Continuation;
 use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 
@@ -134,7 +135,7 @@ impl<'m> Record<'m> {
                 let kind = MetKind::Fold {
                     locked: locked.collect(),
                     moving: fastest
-                        .filter(|(_, rate)| *rate > 1e-6)
+                        .filter(|(_, rate)| *rate > STILL)
                         .map(|(j, _)| name(j)),
                 };
                 (kind, Some(2))

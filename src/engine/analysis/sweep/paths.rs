@@ -106,8 +106,6 @@ impl Tracer {
     /// True if the path comes back the way it went from a point at rest, as at the end of an arc.
     fn retraces(&mut self, curve: &mut Curve, method: &Continuation, still: &At) -> bool {
         const STEPS: usize = 12;
-        /// Largest gap of a path that retraces itself: at a cusp it is about the third power of the step.
-        const SAME_WAY: f64 = 1e-11;
         let step = 0.5 * method.longest;
         let Some(ahead) = method.across(curve, still, step) else {
             return false;
@@ -119,7 +117,8 @@ impl Tracer {
                 return false;
             };
             let gap = (wanted - self.position(&place.at)).times(1.0 / self.length);
-            if gap.norm() < SAME_WAY {
+            // retraced; at a cusp the gap is about the third power of the step
+            if gap.norm() < 1e-11 {
                 return true;
             }
             let rate = self.velocity(&place);

@@ -90,8 +90,6 @@ impl Schedule {
 
     /// Parts of the time between which every input goes one way, and no farther than a tenth of its unit; the last is 1.
     fn turns(&self, units: &[f64]) -> Vec<f64> {
-        const LONGEST: f64 = 0.1;
-        const MOST: f64 = 1e4;
         let mut parts = vec![0.0];
         for i in 1..self.times.len() {
             let h = self.times[i] - self.times[i - 1];
@@ -114,7 +112,7 @@ impl Schedule {
                 let ways = units.iter().enumerate().map(|(input, unit)| {
                     (self.at(input, to)[0] - self.at(input, from)[0]).abs() / unit
                 });
-                let count = (ways.fold(0.0, f64::max) / LONGEST).ceil().clamp(1.0, MOST);
+                let count = (ways.fold(0.0, f64::max) / 0.1).ceil().clamp(1.0, 1e4);
                 parts.extend((1..=count as usize).map(|k| from + (to - from) * k as f64 / count));
                 from = to;
             }

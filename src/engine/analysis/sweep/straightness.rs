@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::linear::{Svd, dot};
-use crate::number::tolerance::SUMMED;
+use crate::number::tolerance::{ROUNDING, SUMMED};
 use crate::number::{real, sorting::sort_by};
 use crate::solve::summit;
 
@@ -59,7 +59,7 @@ impl Straightness {
                 let (from, to) = (known[i - 1].0, known[i + 1].0);
                 for k in 0..3 {
                     let near = b[k] > -0.5 * line.deviation.max(1e-3 * line.length);
-                    if !near || b[k] < a[k] || b[k] < c[k] || to - from < 1e-9 {
+                    if !near || b[k] < a[k] || b[k] < c[k] || to - from < ROUNDING {
                         continue;
                     }
                     let top = summit(from, to, |place| Some(beyond(&at(place)?)[k]));

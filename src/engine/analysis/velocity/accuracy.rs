@@ -3,8 +3,8 @@
 use super::{Accuracy, FirstOrderOnly};
 use crate::linear::norm;
 use crate::mechanism::Configuration;
-use crate::number::tolerance::EXACT;
-use crate::system::{Drive, Motion, Neighbourhood, Places, Tangent};
+use crate::number::tolerance::{EXACT, STILL};
+use crate::system::{Drive, FINITE_STEP, Motion, Neighbourhood, Places, Tangent};
 
 fn is_still(values: &[f64]) -> bool {
     values.iter().all(|x| *x == 0.0)
@@ -75,10 +75,6 @@ pub(super) fn first_order_only(
     at: &Configuration<f64>,
     drive: &Drive,
 ) -> Option<FirstOrderOnly> {
-    /// Length of the finite step, in rad and characteristic lengths.
-    const STEP: f64 = 0.05;
-    /// Accelerations that open a closure by less than this part of the largest do so by rounding.
-    const ROUNDING: f64 = 1e-6;
     // from rest the accelerations are what a motion begins with
     let given = match is_still(&drive.rates) && !is_still(&drive.accelerations) {
         true => drive.accelerations.clone(),
@@ -92,7 +88,7 @@ pub(super) fn first_order_only(
     let strongest = largest(motion.accelerations(&changes));
     let mismatch = motion.mismatch_of_accelerations();
     let fastest = largest(&rates);
-    let opens = mismatch > ROUNDING * strongest.max(fastest * fastest);
+    let opens = mismatch > STILL * strongest.max(fastest * fastest);
     let tangent = near.tangent(at.clone());
     let places = Places::new(motion.unknowns());
     let places = (near.system().unknowns().iter())
@@ -103,7 +99,9 @@ pub(super) fn first_order_only(
     let gap = match alone && length > 0.0 {
         true => {
             direction.iter_mut().for_each(|x| *x /= length);
-            near.free_step(&tangent, &direction, STEP).err().flatten()
+            near.free_step(&tangent, &direction, FINITE_STEP)
+                .err()
+                .flatten()
         }
         false => None,
     };

@@ -5,8 +5,6 @@ use crate::number::Number;
 /// The determinant of a square matrix, by elimination with the largest pivot of each column; none where such a pivot is
 /// small, if many matrices are eliminated in the order of one.
 pub(super) fn determinant<T: Number>(size: usize, entries: &[T]) -> Option<T> {
-    /// Pivots below this part of their size where the order was chosen are small.
-    const SMALL: f64 = 1e-3;
     let mut matrix = entries.to_vec();
     let mut product = T::one();
     for k in 0..size {
@@ -22,7 +20,8 @@ pub(super) fn determinant<T: Number>(size: usize, entries: &[T]) -> Option<T> {
         if k + 1 == size || top == T::zero() {
             break;
         }
-        if (top.abs()).less(T::from_f64(SMALL * top.real().abs())) {
+        // small beside what it was where the order was chosen
+        if (top.abs()).less(T::from_f64(1e-3 * top.real().abs())) {
             return None;
         }
         for row in k + 1..size {

@@ -19,6 +19,7 @@ use super::problem::{Grid, MapProblem};
 use crate::algebra::SiUnit;
 use crate::mechanism::{PoseCoordinate, Variable, turn_near};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::ROUNDING;
 use crate::solve::each;
 use crate::system::{Coordinate, NamedUnit};
 
@@ -54,7 +55,7 @@ impl<'a> WorkspaceMap<'a> {
                 let (a, b) = (joints(a), joints(b));
                 let pairs = a.iter().zip(&b);
                 // equal but for rounding is equal
-                let differ = |(a, b): &(&f64, &f64)| (**a - **b).abs() > 1e-9;
+                let differ = |(a, b): &(&f64, &f64)| (**a - **b).abs() > ROUNDING;
                 let mut differing = pairs.into_iter().filter(differ);
                 let order = differing.next().map(|(a, b)| a.total_cmp(b));
                 order.unwrap_or(std::cmp::Ordering::Equal)
@@ -295,7 +296,7 @@ impl<'a> WorkspaceMap<'a> {
                 let of = |s: usize| indicators(s).condition;
                 let mut alike = finite
                     .iter()
-                    .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
+                    .filter(|s| (of(**s) / wanted - 1.0).abs() < ROUNDING);
                 alike.next().map(|s| Conditioned {
                     at: self.grid.values(self.reached_set.solution(*s).node),
                     condition: of(*s),
@@ -347,7 +348,7 @@ fn bring(problem: &MapProblem, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
         if problem.turns[joint] {
             *value = match plain {
-                true => turn_near(*value, 1e-9),
+                true => turn_near(*value, ROUNDING),
                 false => problem.by_home(joint, *value),
             };
         }

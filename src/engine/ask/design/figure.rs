@@ -117,20 +117,19 @@ impl Figure {
 
     /// Values beyond which it never is for parameters in intervals.
     pub fn possible(&self, parameters: &[Interval]) -> Interval {
-        const ANY: f64 = f64::INFINITY;
         let value = self.quantity.expression.evaluate(&|of| match of {
             Measured::Parameter(i) => parameters[*i],
             other => other.possible(),
         });
         let of = value.unwrap_or(Interval {
-            low: -ANY,
-            high: ANY,
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
         });
         let (low, high) = match self.over {
             Statistic::Least | Statistic::Greatest | Statistic::Mean => return of,
             Statistic::Rms => (0.0, of.magnitude()),
             Statistic::Range => (0.0, of.width()),
-            Statistic::Straightness => (0.0, ANY),
+            Statistic::Straightness => (0.0, f64::INFINITY),
             Statistic::Dwell => (0.0, 1.0),
         };
         Interval { low, high }

@@ -10,10 +10,11 @@ use super::DesignError;
 use super::figure::{Figure, Observed, Statistic, in_unit, no_quantity};
 use super::read::Read;
 use crate::algebra::SiUnit;
-use crate::analysis::design::{Defect, DesignCourse, FoundEnd, Moves, course};
+use crate::analysis::design::{Defect, DesignCourse, FoundEnd, MISSED, Moves, course};
 use crate::ask::Question;
 use crate::description::{Description, DesignDescription, DesignPart, DesignProblem, Entry, Role};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::{ROUNDING, SAME};
 use crate::solve::Watch;
 use crate::system::{self, Bundle};
 
@@ -48,9 +49,6 @@ pub(super) struct Judgement {
     /// The value of each goal, unless it is not determined everywhere; none for a design with defects.
     pub goals: Vec<Option<f64>>,
 }
-
-/// Slack of a bound that is met, beside its size.
-const SLACK: f64 = 1e-9;
 
 impl<'a> Judge<'a> {
     /// # Errors
@@ -105,7 +103,7 @@ impl<'a> Judge<'a> {
             let bound = in_unit(mechanism, figure.unit, &named.value);
             let bound = bound.map_err(|problem| problem.of_value(part))?;
             let possible = figure.possible(&parameters);
-            let slack = SLACK * (1.0 + bound.abs());
+            let slack = ROUNDING * (1.0 + bound.abs());
             let (best, beyond) = match at_least {
                 true => (possible.high, possible.high < bound - slack),
                 false => (possible.low, possible.low > bound + slack),
@@ -223,7 +221,6 @@ impl<'a> Judge<'a> {
     }
 
     fn costs_of(&self, verdict: &Judgement) -> Option<Vec<f64>> {
-        const MISSED: f64 = 1e30;
         let missed = verdict.defects.iter().map(|defect| match defect {
             Defect::Condition {
                 bound,
@@ -323,7 +320,7 @@ fn driven(mechanism: &Mechanism) -> impl Iterator<Item = usize> {
 }
 
 fn driver_turns(course: &DesignCourse) -> bool {
-    course.closed && course.dead.is_empty() && (course.turn.abs() - TAU).abs() < 1e-6
+    course.closed && course.dead.is_empty() && (course.turn.abs() - TAU).abs() < SAME
 }
 
 fn driver_moves(course: &DesignCourse) -> Moves {

@@ -11,12 +11,6 @@ use crate::system::{self, Coordinate, HeldPlatform, MotionTracker, System};
 /// The longest step of the held coordinates, in rad or characteristic lengths.
 const LONGEST: f64 = 0.2;
 
-/// The shortest step that is tried, over the longest.
-const SHORTEST: f64 = 1.0 / 16384.0;
-
-/// Steps beyond which a row is too far away.
-const FARTHEST: f64 = 10_000.0;
-
 /// Number of steps for a distance; 0 if the values are too far away or not finite.
 fn steps_of(distance: f64, finite: bool) -> usize {
     let steps = match distance <= LONGEST {
@@ -24,7 +18,8 @@ fn steps_of(distance: f64, finite: bool) -> usize {
         true => 1.0,
         false => (distance / LONGEST).ceil(),
     };
-    match finite && steps <= FARTHEST {
+    // a row that is farther away is not reached
+    match finite && steps <= 10_000.0 {
         true => (steps as usize).max(1),
         false => 0,
     }
@@ -345,7 +340,7 @@ impl<'a> RowSeries<'a> {
             }
             tracker.restart(&before);
             step *= 0.5;
-            if step < SHORTEST * longest {
+            if step < 1.0 / 16384.0 * longest {
                 return false;
             }
         }

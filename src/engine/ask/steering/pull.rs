@@ -9,6 +9,7 @@ use crate::analysis::sweep::{SweepEnd, SweepReport};
 use crate::geometry::Vector3;
 use crate::linear::{Decomposition, norm};
 use crate::mechanism::{Configuration, Point};
+use crate::number::tolerance::{LONGEST_STEP, ROUNDING};
 use crate::solve::Watch;
 use crate::system::{Coordinate, FrameTwists, Held, System};
 
@@ -93,13 +94,6 @@ impl Steering {
 
     /// Multiples of the motions that bring the place where it is wanted, and the joints that stay at their limits.
     fn parts(&self, pulled: &Pulled, ways: &Ways) -> (Vec<f64>, Vec<Coordinate>) {
-        /// Damping: a displacement that counts as much as a motion of 1, in characteristic lengths. A weak motion is
-        /// not forced.
-        const DAMPING: f64 = 0.03;
-        /// Weight of a limit relative to the place.
-        const FIRM: f64 = 1e4;
-        /// The longest step, in rad and characteristic lengths.
-        const LONGEST: f64 = 0.5;
         let place = self.place(pulled, ways, &self.at);
         let count = place.velocities.len();
         let mut stopped: Vec<Coordinate> = Vec::new();
@@ -108,14 +102,16 @@ impl Steering {
             let mut matrix = Vec::new();
             for (k, velocity) in place.velocities.iter().enumerate() {
                 matrix.extend(velocity.0);
-                matrix.extend((0..count).map(|row| if row == k { DAMPING } else { 0.0 }));
-                matrix.extend(still.iter().map(|rates| FIRM * rates[k]));
+                // damping in characteristic lengths: a weak motion is not forced
+                matrix.extend((0..count).map(|row| if row == k { 0.03 } else { 0.0 }));
+                // a limit is firm
+                matrix.extend(still.iter().map(|rates| 1e4 * rates[k]));
             }
             let rows = 3 + count + still.len();
             let mut right = place.way.0.to_vec();
             right.resize(rows, 0.0);
             let mut parts = Decomposition::of(rows, count, &matrix).solve(&right);
-            let shorter = (LONGEST / norm(&parts).max(LONGEST)).min(1.0);
+            let shorter = (LONGEST_STEP / norm(&parts).max(LONGEST_STEP)).min(1.0);
             parts.iter_mut().for_each(|part| *part *= shorter);
             // what a firm row leaves is rounding
             let rate = |of| ways.rate(of, &parts);
@@ -186,7 +182,7 @@ impl Steering {
         watch: &Watch,
     ) -> Option<Configuration<f64>> {
         let size = norm(parts);
-        if size < 1e-9 {
+        if size < ROUNDING {
             return None;
         }
         let along: Vec<f64> = parts.iter().map(|part| part / size).collect();

@@ -3,6 +3,7 @@
 use super::Steering;
 use crate::linear::{add, dot, norm, remove};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::{SAME, STILL};
 use crate::system::{Coordinate, Freedoms, System};
 
 /// The motions of a mechanism with nothing driven held, and how fast its coordinates change in them.
@@ -63,15 +64,11 @@ impl Ways {
         preferred: &[Coordinate],
         along: Option<&[f64]>,
     ) -> Vec<Coordinate> {
-        /// A coordinate that changes less than this part of the one that changes most gives way to it.
-        const GOOD: f64 = 0.15;
-        /// Angles of a platform that is pitched nearly upright change without end.
-        const WILD: f64 = 3.0;
-        const NONE: f64 = 1e-6;
         let mut left: Vec<(Coordinate, Vec<f64>)> = self
             .rates
             .iter()
-            .filter(|(_, rates)| norm(rates) < WILD)
+            // angles of a platform that is pitched nearly upright change without end
+            .filter(|(_, rates)| norm(rates) < 3.0)
             .cloned()
             .collect();
         let mut chosen = Vec::new();
@@ -88,14 +85,15 @@ impl Ways {
                 break;
             };
             let enough = |i: &usize, least: f64| size(&left[*i]) > least;
-            let wanted = best_of(&|of| first.contains(of)).filter(|i| enough(i, NONE));
+            let wanted = best_of(&|of| first.contains(of)).filter(|i| enough(i, STILL));
             let wanted = wanted.or_else(|| {
-                let least = GOOD * size(&left[best]);
+                // a coordinate that changes much less than the one that changes most gives way to it
+                let least = 0.15 * size(&left[best]);
                 best_of(&|of| preferred.contains(of)).filter(|i| enough(i, least))
             });
             let (of, mut rates) = left.swap_remove(wanted.unwrap_or(best));
             let length = norm(&rates);
-            if length < NONE {
+            if length < STILL {
                 break;
             }
             rates.iter_mut().for_each(|x| *x /= length);
@@ -124,14 +122,11 @@ impl Ways {
     }
 }
 
-/// As near as this a joint is at its limit, in rad or characteristic lengths.
-const NEAR: f64 = 1e-6;
-
 /// No joint is beyond a limit.
 pub(super) fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
     let mut joints = mechanism.joints().iter().enumerate();
     joints.all(|(joint, of)| {
-        let near = NEAR * Coordinate::Joint(joint).scale(mechanism);
+        let near = SAME * Coordinate::Joint(joint).scale(mechanism);
         let value = at.joints[joint];
         of.limits
             .is_none_or(|(low, high)| (low - near..=high + near).contains(&value))
@@ -163,7 +158,7 @@ pub(super) fn at_limits<'m>(
     joints.filter_map(move |(joint, of)| {
         let (low, high) = of.limits?;
         let coordinate = Coordinate::Joint(joint);
-        let near = NEAR * coordinate.scale(mechanism);
+        let near = SAME * coordinate.scale(mechanism);
         let (value, rate) = (at.joints[joint], rate(coordinate));
         let beyond = (value <= low + near && rate < 0.0) || (value >= high - near && rate > 0.0);
         beyond.then_some(coordinate)

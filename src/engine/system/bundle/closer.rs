@@ -9,7 +9,7 @@ use super::written::Storage;
 use super::{Bundle, Bundled, Lanes, Target};
 use crate::linear::norm;
 use crate::mechanism::Configuration;
-use crate::number::tolerance::SOLVED;
+use crate::number::tolerance::{LONGEST_STEP, SOLVED};
 use crate::solve::Equations;
 use crate::system::{Held, System, SystemWork};
 
@@ -195,7 +195,6 @@ impl Closer<'_, '_> {
         mut at: Configuration<f64>,
     ) -> Option<Configuration<f64>> {
         const ROUNDS: usize = 25;
-        const LONGEST: f64 = 0.5;
         let (mut before, mut slow) = (f64::INFINITY, 0);
         for _ in 0..ROUNDS {
             let linear = self.linear(place, &at)?;
@@ -211,7 +210,7 @@ impl Closer<'_, '_> {
             if open < SOLVED && (size < 1e-10 || size >= 0.5 * before) {
                 return Some(at);
             }
-            let factor = (LONGEST / size).min(1.0);
+            let factor = (LONGEST_STEP / size).min(1.0);
             step.iter_mut().for_each(|x| *x *= factor);
             self.displace(&mut at, &step);
             // steps that do not become smaller lead nowhere

@@ -11,6 +11,7 @@ use super::program::{Program, configuration, coordinates};
 use super::sides::SideRows;
 use super::{Bundle, Bundled};
 use crate::mechanism::Configuration;
+use crate::number::tolerance::SUMMED;
 use crate::number::{C, Number};
 use crate::solve::Equations;
 use crate::system::System;
@@ -146,7 +147,7 @@ impl<'b, 'm> Copies<'b, 'm> {
         let mut work = system.work();
         for _ in 0..ROUNDS {
             let size = system.linearise(&at, &mut work);
-            if size.largest < 1e-13 {
+            if size.largest < SUMMED {
                 return Some(at);
             }
             system.factorise(0.0, &mut work);

@@ -1,7 +1,7 @@
 //! A configuration of a bundle, linearised and eliminated.
 
 use super::sides::SideRows;
-use crate::linear::{Svd, add, complement, dot, norm, rank};
+use crate::linear::{INDEPENDENT, Svd, add, complement, dot, norm, rank};
 use crate::number::tolerance::SUMMED;
 
 /// Closures and targets of one configuration, linearised; matrices are dense and column-major.
@@ -104,8 +104,6 @@ impl Blocks {
 
     /// The steps for each of the shared numbers and for none of them, where the equations determine the configuration.
     fn solved(&self) -> Option<Vec<Vec<f64>>> {
-        /// Of smaller pivots the singular values decide.
-        const LEAST: f64 = 1e-6;
         let (rows, size) = (self.closures.len(), self.unknowns);
         if rows != size || rows == 0 {
             return None;
@@ -128,7 +126,8 @@ impl Blocks {
         if !matrix.eliminate(size) {
             return None;
         }
-        let regular = (0..size).all(|i| matrix.row(i)[i].abs() * LEAST * largest < 1.0);
+        // of smaller pivots the singular values decide
+        let regular = (0..size).all(|i| matrix.row(i)[i].abs() * INDEPENDENT * largest < 1.0);
         let step = |side: usize| {
             let mut step = vec![0.0; size];
             matrix.back(size, &[], side, &mut step);

@@ -9,6 +9,7 @@ use super::derivation::{Derivation, FoundRule};
 use super::single::{Circular, SingleUnknown, beside, cross, dot, polynomial};
 use crate::algebra::{ByUnknowns, Trigonometric, Wave};
 use crate::number::real;
+use crate::number::tolerance::ROUNDING;
 
 /// Unknowns in the equations of one closure beyond which none is eliminated.
 const MOST_UNKNOWNS: usize = 4;
@@ -140,7 +141,7 @@ impl Derivation<'_> {
             return (self.value(&over).powi(2) > self.least).then_some(Rule::Linear { of, over });
         }
         let [c, b, a] = rows.into_iter().find(|[_, _, square]| !square.is_empty())?;
-        (self.value(&a).abs() > 1e-9).then_some(Rule::Quadratic { a, b, c })
+        (self.value(&a).abs() > ROUNDING).then_some(Rule::Quadratic { a, b, c })
     }
 
     /// cos x and sin x from several rows.

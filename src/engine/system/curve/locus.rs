@@ -3,6 +3,7 @@
 use super::{ConfigurationCurve, Curve};
 use crate::linear::{Decomposition, add, dot, product};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::FIVE_POINTS;
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
 
@@ -68,16 +69,11 @@ impl LocusCurve {
 
     /// The derivative of M along the motion v, column-major, by five points: about as exact as rounding.
     fn change(&mut self, point: &Singular) -> Vec<f64> {
-        const STEP: f64 = 1e-3;
         let mut change = vec![0.0; self.locked.rows() * self.locked.columns()];
-        for (steps, weight) in [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)] {
-            let step: Vec<f64> = point.motion.iter().map(|v| steps * STEP * v).collect();
+        for (length, weight) in FIVE_POINTS {
+            let step: Vec<f64> = point.motion.iter().map(|v| length * v).collect();
             let at = self.locked.system().displaced(&point.at, &step);
-            add(
-                &mut change,
-                weight / (12.0 * STEP),
-                &self.locked.jacobian(&at),
-            );
+            add(&mut change, weight, &self.locked.jacobian(&at));
         }
         change
     }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Curve, Driven};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::number::tolerance::{ROUNDING, SAME};
+use crate::number::tolerance::{LONGEST_STEP, ROUNDING, SAME};
 use crate::solve::{Continuation, CurvePoint, Progress, SolutionCurve, Watch};
 use crate::system::{Coordinate, Held};
 
@@ -277,7 +277,6 @@ pub fn neared<C: SolutionCurve>(
     arrived: impl Fn(f64, &[f64]) -> bool,
 ) -> Option<C::Point> {
     const STEPS: usize = 40;
-    const LONGEST: f64 = 0.5;
     let regular = curve.unknowns().saturating_sub(1);
     for _ in 0..STEPS {
         let (residual, jacobian) = curve.linearise(&point);
@@ -291,7 +290,7 @@ pub fn neared<C: SolutionCurve>(
         if arrived(size, &residual) {
             return Some(point);
         }
-        let factor = (LONGEST / size).min(1.0);
+        let factor = (LONGEST_STEP / size).min(1.0);
         step.iter_mut().for_each(|x| *x *= -factor);
         point = curve.displaced(&point, &step);
     }

@@ -7,7 +7,7 @@ use super::trace::closed;
 use crate::description::Role;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::number::tolerance::NOT_PRINTED;
+use crate::number::tolerance::{NOT_PRINTED, SAME};
 use crate::number::{real, sorting::sort_by};
 use crate::solve::{ALIGNED, BranchPoint, Continuation, CurvePoint, SolutionCurve, StepFailure};
 
@@ -187,7 +187,7 @@ impl<'m> Walk<'m> {
         let from = self.place.clone();
         let mut leg = self.leg(curve, from, to.clone());
         // what ends the walk may come first, and is then met by shorter steps
-        if leg.events.iter().any(|(_, event)| event.ends()) && norm(&way) > 1e-6 {
+        if leg.events.iter().any(|(_, event)| event.ends()) && norm(&way) > SAME {
             return None;
         }
         self.gone = leg.gone_at(curve, &to);

@@ -95,10 +95,9 @@ impl Chart {
 
     /// True if an angle of a platform is locked that is pitched by ±90°, where it has no value.
     pub fn is_gimbal_locked(&self, at: &Configuration<f64>) -> bool {
-        const UPRIGHT: f64 = 1e-3;
         self.coordinates[self.free..].iter().any(|of| match *of {
             Coordinate::Pose(platform, c) if c.is_angle() => {
-                level(&at.platforms[platform].pose().rotation) < UPRIGHT
+                level(&at.platforms[platform].pose().rotation) < 1e-3
             }
             _ => false,
         })

@@ -5,13 +5,11 @@ use std::cell::RefCell;
 use super::{System, SystemWork};
 use crate::linear::CURVED;
 use crate::mechanism::Configuration;
-use crate::number::tolerance::NOT_PRINTED;
+use crate::number::tolerance::{DIFFERENCE, NOT_PRINTED};
 use crate::solve::{Equations, walk_down};
 
 /// The weight of held coordinates, and how exactly they are kept in the end (rad, characteristic lengths).
 const WEIGHT: f64 = 10.0;
-/// A gradient this small relative to the gaps vanishes.
-const LEVEL: f64 = 1e-6;
 
 /// The closest approach to assembly near a configuration, with held coordinates kept, and true if it is a
 /// minimum: the gradient of the squared gaps vanishes and their curvature is nowhere negative.
@@ -40,10 +38,11 @@ pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configurat
         |at: &Configuration<f64>| system.slope(at, WEIGHT, &multipliers, &mut work.borrow_mut());
     let (gradient, squares) = slope(&at);
     let steepest = gradient.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
-    if steepest > LEVEL * squares.sqrt() {
+    // beside the gaps
+    if steepest > CURVED * squares.sqrt() {
         return (at, false);
     }
-    let step = 1e-5;
+    let step = DIFFERENCE;
     let mut curvature = nalgebra::DMatrix::zeros(unknowns, unknowns);
     for j in 0..unknowns {
         let gradient_at = |distance: f64| {

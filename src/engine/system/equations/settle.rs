@@ -3,7 +3,7 @@
 use super::{System, SystemWork};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
-use crate::number::tolerance::{DOUBLE, EXACT};
+use crate::number::tolerance::{DOUBLE, EXACT, LONGEST_STEP};
 use crate::solve::{
     Equations, Newton, NewtonReport, Stage, Stop, Watch, deflating_step, step_off_saddle,
 };
@@ -17,10 +17,6 @@ pub fn solve(
     at: &mut Configuration<f64>,
     work: &mut SystemWork<f64>,
 ) -> NewtonReport {
-    const SADDLE: f64 = 0.05;
-    /// Farthest distance of a saddle from the end of Newton's method.
-    const NEAR: f64 = 0.1;
-    const REACH: f64 = 1e-3;
     /// A few for each part that is straight.
     const SADDLES: usize = 8;
     let mut trial = at.clone();
@@ -35,7 +31,8 @@ pub fn solve(
     }
     let mut found = None;
     for _ in 0..SADDLES {
-        if report.stop == Stop::Solved || report.size.largest >= SADDLE || !dense {
+        // with wide gaps it is no saddle beside a solution
+        if report.stop == Stop::Solved || report.size.largest >= 0.05 || !dense {
             break;
         }
         let Some(level) = level(system, work, at.clone()) else {
@@ -47,7 +44,7 @@ pub fn solve(
             break;
         }
         // a saddle is where it was
-        if norm(&system.difference(at, &level)) > NEAR {
+        if norm(&system.difference(at, &level)) > 0.1 {
             break;
         }
         let lost = lost(left);
@@ -70,7 +67,7 @@ pub fn solve(
     }
     let nearly = report.stop != Stop::Solved && report.size.largest < DOUBLE;
     if nearly && found.is_none() {
-        found = settle(system, work, at.clone(), REACH, None);
+        found = settle(system, work, at.clone(), 1e-3, None);
     }
     if let Some(found) = found {
         *at = found;
@@ -139,7 +136,6 @@ fn level(
     const STEPS: usize = 30;
     /// Longer steps must lower what is left.
     const LONG: f64 = 0.05;
-    const LONGEST: f64 = 0.3;
     let mut before = f64::INFINITY;
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
@@ -152,8 +148,8 @@ fn level(
             return None;
         }
         before = left;
-        if last > LONGEST {
-            step.iter_mut().for_each(|x| *x *= LONGEST / last);
+        if last > LONGEST_STEP {
+            step.iter_mut().for_each(|x| *x *= LONGEST_STEP / last);
         }
         at = system.displaced(&at, &step);
         if last < 1e-9 {

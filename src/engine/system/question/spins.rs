@@ -143,7 +143,8 @@ fn platforms(
             let (_, slope) = spin.row(&at.platforms[platform].orientation);
             omega.dot(&Vector3(slope)).abs() / omega.norm()
         };
-        let spin = match changes(&spin) < SLOW && changes(&other) > changes(&spin) {
+        // at most it changes by 1
+        let spin = match changes(&spin) < 0.3 && changes(&other) > changes(&spin) {
             true => other,
             false => spin,
         };
@@ -151,9 +152,6 @@ fn platforms(
     });
     spins.collect()
 }
-
-/// The condition of a spin that changes more slowly, of 1 at most, is taken for another one.
-const SLOW: f64 = 0.3;
 
 /// A coordinate that changes less in a motion of unit norm cannot stand for that motion.
 const LEAST: f64 = 0.1;

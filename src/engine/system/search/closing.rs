@@ -31,8 +31,7 @@ impl WidestGap {
 
     /// True if the gap is wider than the rounding of written poses explains: over 1 % of a length (m), or 0.01 rad.
     pub fn is_wide(&self, length: f64) -> bool {
-        const ROUNDED: f64 = 1e-2;
-        self.distance > ROUNDED * length || self.angle > ROUNDED
+        self.distance > 0.01 * length || self.angle > 0.01
     }
 }
 
@@ -85,9 +84,6 @@ impl AssemblySettings {
 
 /// A pose that moves no more than this, in rad or characteristic lengths, is only rounded.
 const SMALL: f64 = 0.1;
-
-/// An assembly is much nearer than another one if it is no farther than this part of the way.
-const MUCH_NEARER: f64 = 0.1;
 
 /// The joint or platform that moved most when a given pose was closed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -238,7 +234,8 @@ pub fn close(
             loose = with_file_loose(question, newton, &start);
         }
         if let Some(at) = &loose
-            && way(at) <= SMALL.min(MUCH_NEARER * with_all)
+            // much nearer: no farther than a tenth of the way
+            && way(at) <= SMALL.min(0.1 * with_all)
         {
             return Ok(closed(at.clone(), false));
         }
@@ -266,7 +263,7 @@ impl Closed {
     pub fn pose(&self, mechanism: &Mechanism) -> GivenPose {
         let given = self.given.clone();
         GivenPose {
-            given_gap: given.filter(|gap| gap.size(mechanism) > 1e-9),
+            given_gap: given.filter(|gap| gap.size(mechanism) > ROUNDING),
             moved: self.moved.clone(),
             kept: self.kept,
             outside_limits: self.outside_limits(mechanism),

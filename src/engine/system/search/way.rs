@@ -9,20 +9,16 @@ use crate::number::real;
 use crate::solve::{NewtonReport, Stop};
 use crate::system::HeldPlatform;
 
-/// Longest step of a held coordinate, in rad or characteristic lengths.
-const STEP: f64 = 0.2;
-
-/// Longest continuation, in steps: a longer way is not tried.
-const MOST: f64 = 64.0;
-
 impl Search<'_> {
     /// The configuration reached in the assembly mode of home, as held coordinates move from home to their values in
     /// small steps. `None` if home does not assemble, the way is too long or a step fails.
     pub(crate) fn moved_from_home(&mut self) -> Option<Attempt> {
         let home = self.mechanism.home();
         let to = self.question.start();
-        let steps = (self.longest_change(&home, &to) / STEP).ceil().max(1.0);
-        if steps > MOST {
+        // steps of at most 0.2 rad or characteristic lengths
+        let steps = (self.longest_change(&home, &to) / 0.2).ceil().max(1.0);
+        // a longer way is not tried
+        if steps > 64.0 {
             return None;
         }
         // copied only where targets move

@@ -6,7 +6,7 @@ use rand::Rng;
 use super::{Neighbourhood, Tangent};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
-use crate::number::tolerance::DOUBLE;
+use crate::number::tolerance::{DOUBLE, SOLVED, SUMMED};
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
 /// wₖᵀ J = 0, which every finite motion starts along.
@@ -27,13 +27,14 @@ pub struct FlatSet {
     pub beside: Vec<Configuration<f64>>,
 }
 
+/// Length of the steps, in rad and characteristic lengths, by which branches and sets of configurations are sought.
+pub const SET_STEP: f64 = 0.02;
+
 impl Cone {
     /// The cone at a configuration.
     pub fn of(near: &mut Neighbourhood, tangent: &Tangent) -> Self {
         /// Freedoms beyond which the forms cost more than they are worth.
         const LIMIT: usize = 24;
-        /// Forms below this are truncation of the differences: zero.
-        const ZERO: f64 = 1e-4;
         let motions = &tangent.motions;
         let n = motions.len();
         let mut cone = Cone {
@@ -64,7 +65,8 @@ impl Cone {
         let rows: Vec<Vec<f64>> = (0..dependencies.len())
             .map(|k| coefficients.iter().map(|c| c[k]).collect())
             .collect();
-        cone.forms = orthonormal(&rows, ZERO);
+        // what is less is truncation of the differences
+        cone.forms = orthonormal(&rows, 1e-4);
         cone
     }
 
@@ -75,15 +77,14 @@ impl Cone {
 
     /// True if a whole space of motions is on the cone, to the accuracy of extrapolated tangents.
     pub fn contains_all(&self, motions: &[Vec<f64>]) -> bool {
-        /// Forms have coefficients of unit norm.
-        const ZERO: f64 = 0.03;
         let on_basis =
             |motion: &Vec<f64>| -> Vec<f64> { self.basis.iter().map(|b| dot(b, motion)).collect() };
         let weights: Vec<Vec<f64>> = match self.forms.is_empty() {
             true => return true,
             false => motions.iter().map(on_basis).collect(),
         };
-        let zero = |v: &[f64]| self.linearised(v).0.iter().all(|q| q.abs() < ZERO);
+        // forms have coefficients of unit norm, and tangents are extrapolated
+        let zero = |v: &[f64]| self.linearised(v).0.iter().all(|q| q.abs() < 0.03);
         (0..weights.len()).all(|i| {
             zero(&weights[i])
                 && weights[..i].iter().all(|other| {
@@ -198,7 +199,7 @@ impl Cone {
         for _ in 0..STEPS {
             let (values, mut slopes) = self.linearised(&v);
             left = norm(&values);
-            if left < 1e-12 {
+            if left < SOLVED {
                 break;
             }
             // by Euler the slope along v is twice the value: a step there would only shorten v
@@ -238,10 +239,9 @@ impl Cone {
 /// The shortest x with S x = b for a column-major S of few rows: Sᵀ (S Sᵀ)⁻¹ b, damped so that it has a
 /// value where S loses rank (Levenberg 1944). Iterated, it need not be exact.
 fn shortest(rows: usize, columns: &[f64], b: &[f64]) -> Option<Vec<f64>> {
-    const DAMPING: f64 = 1e-13;
     let s = DMatrix::from_column_slice(rows, columns.len() / rows, columns);
     let mut gram = &s * s.transpose();
-    let damping = DAMPING * gram.trace().max(f64::MIN_POSITIVE);
+    let damping = SUMMED * gram.trace().max(f64::MIN_POSITIVE);
     (0..rows).for_each(|i| gram[(i, i)] += damping);
     let weights = gram
         .cholesky()?
@@ -281,13 +281,22 @@ impl Neighbourhood<'_> {
         rng: &mut impl Rng,
     ) -> Option<Vec<Configuration<f64>>> {
         const TRIALS: usize = 6;
-        const ALONG: f64 = 0.95;
         let arrivals = (0..TRIALS).map(|_| {
             let direction = combination(&at.motions, rng);
-            let (at, way) = self.arrive(at, &direction, step)?;
-            (dot(&way, &direction) > ALONG).then_some(at)
+            self.ahead(at, &direction, step)
         });
         arrivals.collect()
+    }
+
+    /// The assembled configuration that a small step leads to, if it lies about where the step aims.
+    pub fn ahead(
+        &mut self,
+        from: &Tangent,
+        direction: &[f64],
+        step: f64,
+    ) -> Option<Configuration<f64>> {
+        let (at, way) = self.arrive(from, direction, step)?;
+        (dot(&way, direction) > 0.95).then_some(at)
     }
 }
 

@@ -8,6 +8,7 @@ use crate::geometry::RollPitchYaw;
 use crate::linear::{INDEPENDENT, Svd, norm, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::STILL;
 use crate::solve::{Equations, Newton};
 use crate::system::{Coordinate, Held, Places, System, SystemWork, Unknown};
 
@@ -118,7 +119,7 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
         .into_iter()
         .map(|(name, share)| (name.to_owned(), share));
     let mut shares: Vec<(String, f64)> = shares.collect();
-    shares.retain(|(_, share)| *share > 1e-6);
+    shares.retain(|(_, share)| *share > STILL);
     // those that move alike but for rounding stand by name
     let rank = |share: f64| (share * 1e6).round();
     sort_by(&mut shares, |a, b| {

@@ -6,18 +6,18 @@ mod unlocked;
 
 use std::collections::HashSet;
 
-use super::STILL;
 use super::twists::{FrameTwists, Twist};
 use crate::description::Role;
 use crate::linear::{
     Decomposition, RowGroup, Svd, add, complement, independent, orthonormal, rank_of,
 };
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+use crate::number::tolerance::{SAME, STILL};
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::equations::solve;
 use crate::system::{ClosureWrenches, Held, System, SystemWork, Unknown};
 
-pub use follow::FiniteStep;
+pub use follow::{FINITE_STEP, FiniteStep};
 pub use lasting::Lasting;
 
 /// A mechanism near assembled configurations, with nothing held or as a question holds it.
@@ -225,7 +225,7 @@ impl<'a> Neighbourhood<'a> {
         let of_links: Vec<usize> = (0..frames.len()).filter(is_of_link).collect();
         let apart = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
-            (a - b).norm() > 1e-6 / scale
+            (a - b).norm() > SAME / scale
         };
         // two points of a link at rest leave a turn about their line, also of one cut in two or sliding in itself
         let (of_links, bodies) = (&of_links, &bodies);

@@ -4,7 +4,6 @@ use std::collections::HashSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::STILL;
 use super::neighbourhood::Neighbourhood;
 use super::twists::Twist;
 use crate::geometry::Vector3;
@@ -12,7 +11,8 @@ use crate::linear::{Decomposition, axis_aligned, dot, norm, orthonormal, remove}
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::number::Number;
 use crate::number::sorting::sort_by;
-use crate::number::tolerance::RANK_TOLERANCE;
+use crate::number::tolerance::STILL;
+use crate::number::tolerance::{RANK_TOLERANCE, ROUNDING};
 
 /// The infinitesimal motions of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -128,11 +128,10 @@ pub fn wrench_screws(mechanism: &Mechanism, wrenches: &[Vec<f64>]) -> Vec<Screw>
 /// Twists are made unique by taking the part of v that is orthogonal to the translations; the pitch ω·v/ω·ω is then a
 /// quadratic form on the space of the ω, and its eigenvectors are the principal screws (Ball 1900; Hunt 1978).
 fn principal_screws(mechanism: &Mechanism, twists: &[Vec<f64>]) -> Vec<Screw> {
-    /// What turns less than this beside its shift is a translation: its axis would be a million lengths away.
-    const TURNS: f64 = 1e-6;
     let mut space = axis_aligned(twists);
     for twist in &mut space {
-        if norm(&twist[..3]) < TURNS * norm(&twist[3..]) {
+        // its axis would be a million lengths away: a translation
+        if norm(&twist[..3]) < STILL * norm(&twist[3..]) {
             twist[..3].fill(0.0);
         }
     }
@@ -221,11 +220,11 @@ fn rotations_of(
 fn pointing(v: Vector3<f64>) -> Vector3<f64> {
     let largest = v.0.iter().fold(
         0.0,
-        |m: f64, &x| if x.abs() > m.abs() + 1e-9 { x } else { m },
+        |m: f64, &x| if x.abs() > m.abs() + ROUNDING { x } else { m },
     );
     if largest < 0.0 { -v } else { v }
 }
 
 fn clean(v: [f64; 3], size: f64) -> [f64; 3] {
-    v.map(|x| if x.abs() < 1e-9 * size { 0.0 } else { x })
+    v.map(|x| if x.abs() < ROUNDING * size { 0.0 } else { x })
 }

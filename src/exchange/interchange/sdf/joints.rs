@@ -96,8 +96,6 @@ impl SdfReader<'_> {
             "" => frame_of(joint),
             name => scope.name(name),
         };
-        // farther is as good as nowhere
-        const FAR: f64 = 1e15;
         let limit = child(node, "limit");
         let ends = ["lower", "upper"].map(|end| {
             let part = child(limit?, end)?;
@@ -105,7 +103,8 @@ impl SdfReader<'_> {
             if value.is_none_or(f64::is_nan) {
                 (self.problems).not_numbers(part.text().unwrap_or_default(), 1, tag(part));
             }
-            value.filter(|value| value.abs() < FAR)
+            // farther is as good as nowhere
+            value.filter(|value| value.abs() < 1e15)
         });
         let limits = match ends {
             [Some(low), Some(high)] => Some((low, high)).filter(|_| low <= high),

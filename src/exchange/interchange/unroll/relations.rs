@@ -114,14 +114,13 @@ pub(super) fn followers(tree: &Tree) -> Result<HashMap<String, FollowingJoint>, 
 
 /// Refuses numbers so large that all others would be lost to rounding.
 pub(super) fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
-    const MOST: f64 = 1e12;
     fn entries(pose: &Pose<f64>) -> impl Iterator<Item = f64> {
         let axes = pose.rotation.0.into_iter().chain([pose.position]);
         axes.flat_map(|axis| axis.0)
     }
     fn check(of: &str, mut numbers: impl Iterator<Item = f64>) -> Result<(), ImportProblemKind> {
         let of = of.to_owned();
-        let fit = numbers.all(|x| x.abs() <= MOST);
+        let fit = numbers.all(|x| x.abs() <= 1e12);
         fit.then_some(()).ok_or(ImportProblemKind::TooLarge { of })
     }
     let zero = tree.poses(|joint| joint.reference);

@@ -4,6 +4,7 @@ use crate::description::Convention;
 use crate::geometry::{CommonNormal, Line, Pose, Relation, Rotation, Vector3};
 use crate::linear::RANK_TOLERANCE;
 use crate::number::real;
+use crate::number::tolerance::SUMMED;
 
 /// Frames placed on joint axes, and the table read off them.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,16 +106,13 @@ fn angle_about(axis: &Vector3<f64>, u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
     let angle = real::atan2(u.cross(v).dot(axis), u.dot(v));
     match angle {
         // rounding of a half turn must not change its sign
-        _ if angle < -std::f64::consts::PI + ROUNDING => -angle,
+        _ if angle < -std::f64::consts::PI + SUMMED => -angle,
         _ => angle,
     }
 }
 
-/// Rounding of zeros that are sums of a few products near 1.
-const ROUNDING: f64 = 3e-14;
-
 fn without_rounding(x: f64, size: f64) -> f64 {
-    if x.abs() <= ROUNDING * size { 0.0 } else { x }
+    if x.abs() <= SUMMED * size { 0.0 } else { x }
 }
 
 /// A vector turned about a unit vector (Rodrigues).
@@ -213,7 +211,7 @@ impl SerialAxes {
         let relation = common.relation;
         // the product of nearly parallel directions is at right angles to them up to rounding divided by its size
         let normal = (common.direction).map(|n| match n.dot(&z) {
-            off if off.abs() > ROUNDING => perpendicular(&z, [n]),
+            off if off.abs() > SUMMED => perpendicular(&z, [n]),
             _ => n,
         });
         let (x, feet) = match (relation, normal) {
@@ -432,14 +430,14 @@ fn link(
 fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let within = angle - TAU * (angle / TAU).round();
-    let turn = if within < -PI + ROUNDING { TAU } else { 0.0 };
+    let turn = if within < -PI + SUMMED { TAU } else { 0.0 };
     without_rounding(within + turn, 1.0 + angle.abs())
 }
 
 /// A pose whose entries that are zero or one but for rounding are so.
 fn tidy(pose: &Pose<f64>, length: f64) -> Pose<f64> {
     let entry = |x: f64| match x {
-        _ if (x.abs() - 1.0).abs() <= ROUNDING => x.signum(),
+        _ if (x.abs() - 1.0).abs() <= SUMMED => x.signum(),
         _ => without_rounding(x, 1.0),
     };
     Pose {

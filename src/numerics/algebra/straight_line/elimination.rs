@@ -1,15 +1,12 @@
 //! Gaussian elimination in an order that is chosen at one point, for numbers that are not known yet.
 
 use super::Recorded;
-use crate::linear::{Filled, SparseStep};
+use crate::linear::{Filled, INDEPENDENT, SparseStep};
 use crate::number::Number;
+use crate::number::tolerance::ROUNDING;
 
 /// The part of its natural size beyond which a pivot is not small.
 pub const LEAST_PIVOT: f64 = 1e-4;
-/// A pivot smaller than this is taken for zero; rows and unknowns are dimensionless.
-const LEAST: f64 = 1e-6;
-/// A pivot is at least this part of the largest entry in its column.
-const PART: f64 = 0.1;
 
 /// The most unknowns that are solved for at once at the end.
 const LAST: usize = 3;
@@ -130,7 +127,7 @@ fn independent(
         let size = |&(r, c): &(usize, usize)| left[r][c].abs();
         let largest = places.max_by(|a, b| size(a).total_cmp(&size(b)));
         let (r, c) = largest
-            .filter(|place| size(place) >= LEAST)
+            .filter(|place| size(place) >= INDEPENDENT)
             .ok_or(found.len())?;
         let pivot = left.remove(r);
         found.push(rows.remove(r));
@@ -179,20 +176,21 @@ fn chosen(
     for &column in columns {
         let size = |&row: &usize| matrix[row][column].real().abs();
         let largest = rows.iter().map(size).fold(0.0, f64::max);
-        if largest < LEAST {
+        if largest < INDEPENDENT {
             continue;
         }
         let beside = rows.iter().filter(|&&r| filled(matrix[r][column])).count() - 1;
         for &row in rows {
             let entry = matrix[row][column];
             let size = entry.real().abs();
-            if size < (PART * largest).max(LEAST) {
+            // stable with entries that vary: a pivot is no less than a tenth of the largest in its column
+            if size < (0.1 * largest).max(INDEPENDENT) {
                 continue;
             }
             let along = columns.iter().filter(|&&c| filled(matrix[row][c])).count() - 1;
             let cost = (beside * along, entry.constant().is_none());
             let (least, most, _) = best;
-            if cost < least || (cost == least && size > most * (1.0 + 1e-9)) {
+            if cost < least || (cost == least && size > most * (1.0 + ROUNDING)) {
                 best = (cost, size, Some((row, column, cost.0 > 0)));
             }
         }

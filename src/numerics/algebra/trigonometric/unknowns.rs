@@ -1,5 +1,6 @@
 //! Trigonometric polynomials as equations, sorted by products of unknowns.
 
+use crate::number::tolerance::SUMMED;
 use std::collections::{BTreeMap, BTreeSet};
 
 use num_bigint::BigInt;
@@ -158,7 +159,7 @@ impl Trigonometric {
         };
         let largest = self.terms.iter().map(size).fold(0.0, f64::max);
         let mut kept = self.clone();
-        let stays = |key: &Key, c: &mut BigRational| size((key, c)) > 1e-13 * largest;
+        let stays = |key: &Key, c: &mut BigRational| size((key, c)) > SUMMED * largest;
         kept.terms.retain(stays);
         for coefficient in kept.terms.values_mut() {
             if coefficient.denom().bits() > DIGITS {

@@ -13,9 +13,6 @@ use super::{Anchor, Canvas, Colour, INK, Shape};
 /// Letters of Latin, Greek and Cyrillic, and signs of mathematics, from DejaVu Sans 2.37.
 static FONT: &[u8] = include_bytes!("DejaVuSans.ttf");
 
-/// Dots of a picture at most: a sheet of a thousand modes is painted smaller.
-const MOST: f64 = 64e6;
-
 impl Canvas {
     /// The picture as PNG, with two dots for a pixel both ways.
     pub fn png(&self) -> Vec<u8> {
@@ -24,7 +21,8 @@ impl Canvas {
     }
 
     fn painted(&self, finer: f64) -> Pixmap {
-        let finer = finer.min((MOST / (self.width * self.height)).sqrt());
+        // a sheet of a thousand modes is painted smaller: 64 million dots at most
+        let finer = finer.min((64e6 / (self.width * self.height)).sqrt());
         let dots = |pixels: f64| ((pixels * finer).round() as u32).max(1);
         let map = Pixmap::new(dots(self.width), dots(self.height));
         let mut map = map.expect("the picture has as many dots as memory has room for");

@@ -10,7 +10,7 @@ pub(super) fn missed(of: &Deviation) -> String {
     format!("{by} (`{}` in position {})", of.quantity, of.position)
 }
 
-/// What a design does not do, in words.
+/// The defects of a design, in words.
 pub(super) fn defects(all: &[Defect]) -> String {
     let words: Vec<String> = all.iter().map(defect).collect();
     words.join("; ")

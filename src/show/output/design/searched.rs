@@ -3,7 +3,7 @@
 use crate::analysis::design::{DesignReport, Exact, Goal, Listed, NotAll};
 use crate::description::count;
 
-/// How designs were searched for, in sentences.
+/// The search for designs, in sentences.
 pub(super) fn searched(report: &DesignReport) -> Vec<String> {
     let mut said: Vec<String> = report.not_all.map(not_all).into_iter().collect();
     if report.varied.is_empty() {
@@ -31,7 +31,7 @@ pub(super) fn searched(report: &DesignReport) -> Vec<String> {
     said
 }
 
-/// How listed values were taken.
+/// The choice of listed values.
 fn listed(of: &Listed) -> String {
     format!(
         "Numbers with lists were fitted freely first; then from {} one after another was kept at each of the {} listed values \
@@ -55,7 +55,7 @@ fn listed(of: &Listed) -> String {
     )
 }
 
-/// How goals were improved.
+/// The improvement of goals.
 fn improved(report: &DesignReport) -> Option<String> {
     let how = |goal: &Goal| {
         let how = if goal.greatest { "great" } else { "small" };
@@ -151,7 +151,7 @@ fn all_of(exact: &Exact) -> Vec<String> {
     ]
 }
 
-/// Why random starts were searched although there are as many targets as unknowns.
+/// The reason for a search from random starts although there are as many targets as unknowns.
 fn not_all(why: NotAll) -> String {
     match why {
         NotAll::More { than } => format!(

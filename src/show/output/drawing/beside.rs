@@ -15,8 +15,6 @@ const LOAD: Colour = Colour(0xD55E00);
 const REACTION: Colour = Colour(0x009E73);
 const GAINED: Colour = Colour(0xCC79A7);
 const AXES: [Colour; 3] = [Colour(0xD55E00), Colour(0x009E73), Colour(0x0072B2)];
-/// Length of the largest force in pixels.
-const LONGEST: f64 = 50.0;
 
 /// Marks that the mechanism covers.
 pub(super) fn under(stage: &StagedScene) -> Vec<Painted> {
@@ -138,7 +136,8 @@ fn force(
     let force = Vector3(arrow.force);
     let size = force.norm();
     if size > SMALL * largest[0] {
-        let step = force.times(LONGEST / largest[0] / stage.fit.scale);
+        // the largest is 50 pixels long
+        let step = force.times(50.0 / largest[0] / stage.fit.scale);
         let (tail, tip) = match arrow.applied {
             true => (at - step, at),
             false => (at, at + step),

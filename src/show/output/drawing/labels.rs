@@ -1,15 +1,10 @@
 //! Labels beside the things they name, where there is room.
 
-use super::{HEIGHT, Pixel, StagedScene, WIDTH};
+use super::super::canvas::LETTERS;
+use super::{Pixel, SIZE, StagedScene};
 use crate::geometry::Vector3;
 use crate::number::real;
 use crate::scene::JointShape;
-
-/// Height of the letters in pixels.
-pub(super) const LETTERS: f64 = 12.0;
-
-/// Height of the title above the picture, which no label covers.
-const TITLE: f64 = 34.0;
 
 /// A rectangle in pixels: left, top, right, bottom.
 type Area = [f64; 4];
@@ -68,12 +63,13 @@ impl Labels {
                 [x - 3.0, y - 3.0, x + 3.0, y + 3.0]
             })
         });
+        // no label covers the title, 34 pixels high
         let mut labels = Labels {
             sheet: [
-                stage.centre.0 - WIDTH / 2.0,
-                stage.centre.1 - HEIGHT / 2.0 + TITLE,
-                stage.centre.0 + WIDTH / 2.0,
-                stage.centre.1 + HEIGHT / 2.0,
+                stage.centre.0 - SIZE.0 / 2.0,
+                stage.centre.1 - SIZE.1 / 2.0 + 34.0,
+                stage.centre.0 + SIZE.0 / 2.0,
+                stage.centre.1 + SIZE.1 / 2.0,
             ],
             taken: joints_taken.chain(lines_taken).collect(),
         };

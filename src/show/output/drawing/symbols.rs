@@ -204,15 +204,13 @@ fn guide(stage: &StagedScene, at: &Position, axis: &Position, on_ground: bool) -
     pieces
 }
 
-/// Sine of the angle below the horizontal from which on a link hangs from its pin on ground.
-const HANGS: f64 = 0.35;
-
 /// A pin on ground: a triangle on a hatched line, below the pin, or above it where what it carries hangs down.
 fn support(stage: &StagedScene, at: &Position, carried: Option<Position>) -> Vec<Painted> {
     let metres = stage.metres();
     let Camera { right, up, .. } = stage.camera;
     let way = carried.map_or(up, |middle| middle - *at);
-    let up = match way.dot(&up) < -HANGS * way.norm() {
+    // it hangs where it goes down by more than 20°
+    let up = match way.dot(&up) < -0.35 * way.norm() {
         true => up.times(-1.0),
         false => up,
     };

@@ -70,7 +70,7 @@ fn operator(text: &str) -> String {
 }
 
 impl FormulaReader<'_> {
-    /// What stands up to the end of a group, a cell, a row, an environment or the text; `end` becomes what ended it.
+    /// The part up to the end of a group, a cell, a row, an environment or the text; `end` becomes what ended it.
     fn row(&mut self, end: &mut String) -> String {
         let mut row = String::new();
         end.clear();
@@ -279,7 +279,7 @@ mod tests {
         );
     }
 
-    /// What is cut off or wrong still ends.
+    /// A formula that is cut off or wrong still ends.
     #[test]
     fn broken_latex_ends() {
         for latex in [

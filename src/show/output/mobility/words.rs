@@ -44,14 +44,13 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
 /// The pose that was judged, where that is beside the singular one it is taken for.
 pub(super) fn judged(report: &MobilityReport) -> Option<String> {
     let part = report.neglected?;
-    /// Smaller values, in rad or m, are written with an exponent: how far they are from 0 matters here.
-    const SMALL: f64 = 1e-4;
     let values = values(&report.variables, report.joints.values()).into_iter();
     let exact = report.variables.iter().zip(report.joints.values());
     let at = listed(
         values
             .zip(exact)
-            .map(|(said, (of, x))| match *x != 0.0 && x.abs() < SMALL {
+            // how far small values in rad or m are from 0 matters here
+            .map(|(said, (of, x))| match *x != 0.0 && x.abs() < 1e-4 {
                 true => format!("{} = {x:.1e} {}", of.name, of.unit),
                 false => said,
             }),

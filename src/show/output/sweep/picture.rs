@@ -192,7 +192,7 @@ impl Picture {
         scenes
     }
 
-    /// The same places as pictures.
+    /// These places as pictures.
     pub fn panels_moving(&self, mechanism: &Mechanism) -> Vec<Panel> {
         let panel = |(mode, scene)| Panel::new(mechanism.name(), mode, scene);
         self.scenes(mechanism).into_iter().map(panel).collect()

@@ -11,10 +11,6 @@ use crate::linear::{ILL_CONDITIONED, rank_of};
 use crate::solve::{Equations, Stage};
 use crate::system::SystemWork;
 
-/// Assemblies nearer to each other than this, in rad or characteristic lengths, are hardly
-/// distinguished.
-const BARELY: f64 = 1e-4;
-
 impl TargetProblem<'_> {
     /// Numbers, conditions, determinants and certificates.
     pub(crate) fn describe(
@@ -94,7 +90,7 @@ impl TargetProblem<'_> {
                 dimension: f.dimension,
                 certified: certificate.is_ok(),
                 radius: certificate.ok(),
-                uncertified_because: certificate.err().map(|reason| match gap < BARELY {
+                uncertified_because: certificate.err().map(|reason| match gap < 1e-4 {
                     true => format!(
                         "{reason}; another assembly is {gap:.1e} away, which double precision barely separates"
                     ),

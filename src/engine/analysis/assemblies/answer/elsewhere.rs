@@ -12,23 +12,22 @@ use crate::analysis::assemblies::track::{END, Local, ParameterHomotopy};
 use crate::mechanism::Configuration;
 use crate::number::tolerance::CANCELLED;
 use crate::solve::{Homotopy, Newton};
-use crate::system::{Cone, Neighbourhood, independent_parts};
+use crate::system::{Cone, Neighbourhood, SET_STEP, independent_parts};
 
 /// Starts from which what no path leads to is sought at every question, and where there is a reason
 /// to expect it.
 const STARTS: usize = 40;
 const MANY_STARTS: usize = 400;
-/// Samples of a set of one dimension, and how far they are apart at least.
+/// Samples of a set of one dimension.
 const SAMPLES: usize = 6;
-const APART: f64 = 1e-3;
 
 impl TargetProblem<'_> {
     /// True if Newton's method may have ended at a point on its way to a known assembly: the closures
     /// hardly differ between the two.
     fn is_at(&self, x: &[C], found: &Found, homotopy: &mut ParameterHomotopy<'_>) -> bool {
-        const NEAR: f64 = 0.3;
         let y = self.coordinates.flat(&found.point);
-        self.coordinates.within(NEAR, x, &y)
+        // within 0.3 rad or characteristic lengths
+        self.coordinates.within(0.3, x, &y)
             && homotopy.seen_apart(END, &y, x) <= 10.0 * Newton::default().tolerance
     }
 
@@ -69,8 +68,6 @@ impl TargetProblem<'_> {
     /// Equations that only touch zero, as those of rods stretched straight, leave of many complex solutions
     /// few that are real, to which steps from beside them lead too slowly to be spanned.
     fn touching(&self, x: &[C], spanned: usize) -> Option<usize> {
-        /// Length of the steps by which a set is tried.
-        const STEP: f64 = 0.02;
         let point = self.coordinates.placed(x, self.asked).map(|z| z.re);
         let mut near = Neighbourhood::holding(self.mechanism, self.held);
         let mut tangent = near.tangent(point);
@@ -87,7 +84,7 @@ impl TargetProblem<'_> {
                 return Some(part.motions.len());
             }
             let cone = Cone::of(&mut near, &part);
-            Some(cone.set(&mut near, &part, STEP, rng)?.motions.len())
+            Some(cone.set(&mut near, &part, SET_STEP, rng)?.motions.len())
         });
         dimensions.sum()
     }
@@ -147,9 +144,9 @@ impl TargetProblem<'_> {
                 continue;
             }
             let alike = samples.iter().filter(|f| f.dimension == dimension);
+            // samples of a set lie apart
             let enough = dimension > 0
-                && (alike.clone().count() >= SAMPLES
-                    || alike.clone().any(|f| apart(f, &x) < APART));
+                && (alike.clone().count() >= SAMPLES || alike.clone().any(|f| apart(f, &x) < 1e-3));
             if enough || is_known(&x, homotopy) {
                 continue;
             }

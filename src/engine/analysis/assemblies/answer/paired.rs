@@ -2,6 +2,7 @@
 
 use super::{Group, TargetProblem};
 use crate::analysis::assemblies::family::{C, size};
+use crate::number::tolerance::DOUBLE;
 use crate::system::SystemWork;
 
 impl TargetProblem<'_> {
@@ -20,7 +21,7 @@ impl TargetProblem<'_> {
         while let Some(i) = alone.pop() {
             let conjugate: Vec<C> = groups[i].x.iter().map(|z| z.conj()).collect();
             let apart = |k: usize| self.coordinates.difference(&conjugate, &groups[k].x);
-            let limit = NEAR * (1.0 + size(&conjugate));
+            let limit = DOUBLE * (1.0 + size(&conjugate));
             let nearest = (0..alone.len()).min_by(|&a, &b| {
                 let [a, b] = [a, b].map(|place| apart(alone[place]));
                 a.total_cmp(&b)
@@ -41,6 +42,3 @@ impl TargetProblem<'_> {
         added
     }
 }
-
-/// Largest distance between ends of two paths at one solution, relative to its size.
-const NEAR: f64 = 1e-5;

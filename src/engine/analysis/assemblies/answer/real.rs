@@ -3,14 +3,12 @@
 use crate::analysis::assemblies::family::{C, Coordinates, Input, size};
 use crate::geometry::RollPitchYaw;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
+use crate::number::tolerance::{CANCELLED, DOUBLE, ROUNDING, SAME};
 use crate::number::{complex, real};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, SystemWork};
 
 use crate::analysis::assemblies::report::{ByName, PoseReport};
-
-/// Rounding relative to the size of a solution.
-const ROUNDING: f64 = 1e-14;
 
 /// The real configuration at a complex solution, refined; `None` if it is not real.
 ///
@@ -28,12 +26,12 @@ pub(crate) fn real_solution(
 ) -> Option<Configuration<f64>> {
     let scale = 1.0 + size(x);
     let imaginary = x.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
-    if imaginary > 1e-5 * scale {
+    if imaginary > DOUBLE * scale {
         return None;
     }
     let mut point = coordinates.real_part(x, asked);
     // far away rounding leaves more
-    let left = ROUNDING * scale / steepness(&point, coordinates);
+    let left = CANCELLED * scale / steepness(&point, coordinates);
     let newton = Newton {
         tolerance: Newton::default().tolerance.max(left),
         ..Newton::default()
@@ -62,7 +60,7 @@ fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
 
 /// Distance from −π within which an angle is reported as π. Where solutions meet, only half the digits are sure.
 fn rounding(sure: bool) -> f64 {
-    if sure { 1e-9 } else { 1e-6 }
+    if sure { ROUNDING } else { SAME }
 }
 
 /// Angles in (−π, π], quaternions with their first component that is not zero positive. `sure`
@@ -89,14 +87,13 @@ pub(crate) fn tidied(
 /// Complex angles with their real part in (−π, π], complex quaternions with the first component
 /// that is not zero on the right half of the complex plane.
 pub(crate) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
-    const ROUNDING: f64 = 1e-7;
     let mut x = x.to_vec();
     for (z, &j) in x.iter_mut().zip(&coordinates.free_joints) {
-        z.re = coordinates.principal(j, z.re, ROUNDING);
+        z.re = coordinates.principal(j, z.re, SAME);
     }
     for pose in x[coordinates.free_joints.len()..].chunks_exact_mut(7) {
-        let first = pose[..4].iter().find(|z| complex::norm(**z) > ROUNDING);
-        let left = first.is_some_and(|z| match z.re.abs() > ROUNDING {
+        let first = pose[..4].iter().find(|z| complex::norm(**z) > SAME);
+        let left = first.is_some_and(|z| match z.re.abs() > SAME {
             true => z.re < 0.0,
             false => z.im < 0.0,
         });
@@ -127,7 +124,7 @@ pub(crate) fn key(point: &Configuration<f64>, coordinates: &Coordinates) -> Vec<
     joints.chain(poses).collect()
 }
 
-/// Ascending from the first coordinate on; values within 1e-7 of the next ones count as equal, so that rounding does not
+/// Ascending from the first coordinate on; values within 1e-6 of the next ones count as equal, so that rounding does not
 /// decide.
 ///
 /// Comparing pairs in that manner would be no order: of three values the outer ones may differ although the middle one
@@ -137,14 +134,13 @@ pub(crate) fn order<T>(found: &mut [T], key: impl Fn(&T) -> &[f64]) {
 }
 
 fn order_from<T>(place: usize, found: &mut [T], key: &impl Fn(&T) -> &[f64]) {
-    const ALIKE: f64 = 1e-7;
     let at = |x: &T| key(x).get(place).copied();
     if found.len() < 2 || found.iter().any(|x| at(x).is_none()) {
         return;
     }
     let value = |x: &T| at(x).unwrap_or_default();
     found.sort_by(|a, b| value(a).total_cmp(&value(b)));
-    for alike in found.chunk_by_mut(|a, b| value(b) - value(a) <= ALIKE) {
+    for alike in found.chunk_by_mut(|a, b| value(b) - value(a) <= SAME) {
         order_from(place + 1, alike, key);
     }
 }

@@ -11,6 +11,7 @@ use super::Family;
 use super::coordinates::C;
 use crate::geometry::Vector3;
 use crate::mechanism::{ClosureKind, Dimensions, Frame, JointKind, Mechanism};
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, complex};
 use crate::system::{ClosureAxes, HeldPlatform, System};
 
@@ -70,11 +71,9 @@ struct Structure<'a> {
     platforms: Vec<&'a HeldPlatform<C>>,
 }
 
-pub(super) const SMALL: f64 = 1e-9;
-
 fn parallel(a: &Vector3<C>, b: &Vector3<C>) -> bool {
     let size = |v: &Vector3<C>| v.0.iter().map(|x| complex::norm(*x)).fold(0.0, f64::max);
-    size(&a.cross(b)) <= SMALL * size(a) * size(b)
+    size(&a.cross(b)) <= ROUNDING * size(a) * size(b)
 }
 
 impl<'a> Structure<'a> {
@@ -92,7 +91,7 @@ impl<'a> Structure<'a> {
         let axes = system.axes(&way.here.at, &mut system.work());
         let closures = dimensions.closures.iter();
         let links = closures.zip(system.joints_of_closures());
-        let small = SMALL * dimensions.characteristic_length;
+        let small = ROUNDING * dimensions.characteristic_length;
         let links = links.zip(axes).map(|((closure, mut joints), axes)| {
             // a closure does not see a turn about the origin of its frame, or about the axis of that
             let turned = |(_, omega, v): &(usize, Vector3<C>, Vector3<C>)| {
@@ -339,7 +338,7 @@ impl<'a> Structure<'a> {
             })
         };
         let points: Vec<Vector3<C>> = self.links.iter().filter_map(point).collect();
-        let size = SMALL * self.dimensions.characteristic_length;
+        let size = ROUNDING * self.dimensions.characteristic_length;
         let near = |a: &Vector3<C>, b: &Vector3<C>| {
             a.0.iter()
                 .zip(&b.0)
@@ -360,5 +359,5 @@ pub(super) fn is_plain(dimensions: &Dimensions<C>, joint: usize) -> bool {
         .map(complex::norm)
         .filter(|factor| *factor > 0.0)
         .collect();
-    matches!(factors.as_slice(), [factor] if (factor - 1.0).abs() <= SMALL)
+    matches!(factors.as_slice(), [factor] if (factor - 1.0).abs() <= ROUNDING)
 }

@@ -8,6 +8,7 @@ use crate::mechanism::{
     Configuration, Dimensions, Mechanism, PlatformPose, PoseCoordinate, principal, turns_to_repeat,
 };
 use crate::number::Number;
+use crate::number::tolerance::SAME;
 use crate::system::{Held, HeldPlatform, System};
 
 pub(crate) use crate::number::C;
@@ -304,7 +305,7 @@ impl Coordinates {
 }
 
 fn all_small(mut gaps: impl Iterator<Item = f64>, x: &[C]) -> bool {
-    let limit = 1e-6 * (1.0 + size(x));
+    let limit = SAME * (1.0 + size(x));
     gaps.all(|gap| gap <= limit * limit)
 }
 

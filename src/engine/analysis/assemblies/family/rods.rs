@@ -3,13 +3,14 @@
 //! A body between two balls affects nothing else but by its length, nor does a link between two pins of a planar linkage, nor
 //! a leg with two hinges whose axes meet and a ball: the hinges of that turn as they must, in two ways.
 
-use super::bound::{SMALL, is_plain};
+use super::bound::is_plain;
 use super::coordinates::C;
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{
     ChainDimensions, ClosureDimensions, ClosureKind, Dimensions, Frame, Kept, Kinematics,
     LinearForm, RowDimensions,
 };
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, complex::norm};
 use crate::system::{Held, HeldPlatform};
 
@@ -130,7 +131,7 @@ impl Rod {
             matches!(kind, ClosureKind::Revolute | ClosureKind::Spherical)
                 && (count(&rows[..3]), count(&rows[3..kind.equations()])) == (2, 0)
         };
-        let small = SMALL * dimensions.characteristic_length;
+        let small = ROUNDING * dimensions.characteristic_length;
         let free = |way: &FramePath| -> Vec<usize> {
             let forms = way
                 .1

@@ -4,10 +4,10 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::Family;
-use super::bound::SMALL;
 use super::coordinates::C;
 use crate::geometry::{Axis, Pose, Quaternion, Rotation, Vector3};
 use crate::mechanism::Dimensions;
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, complex::norm};
 use crate::solve::Equations;
 use crate::system::{HeldPlatform, System, Unknown, independent_parts};
@@ -37,7 +37,7 @@ fn links(of: &mut Dimensions<C>) -> impl Iterator<Item = &mut Pose<C>> {
 fn normal(rotation: &Rotation<C>) -> Option<Vector3<C>> {
     let [x, y, z] = rotation.column(Axis::Z).0;
     let sine = Number::sqrt(x * x + y * y);
-    let is_special = norm(sine) <= SMALL || norm(z) <= SMALL;
+    let is_special = norm(sine) <= ROUNDING || norm(z) <= ROUNDING;
     (!is_special).then(|| Vector3([-y / sine, x / sine, C::from_f64(0.0)]))
 }
 
@@ -48,7 +48,7 @@ impl VariedDimension {
         let length = of.characteristic_length;
         for (link, pose) in links(of).enumerate() {
             let small = pose.position.0.into_iter().map(norm).fold(0.0, f64::max) / length;
-            if small > SMALL {
+            if small > ROUNDING {
                 all.push(VariedDimension::Lengths { link, small });
             }
             if normal(&pose.rotation).is_some() {
@@ -184,7 +184,7 @@ impl Family {
             };
             half.go(&way, C::from_f64(0.5), &mut half.work());
             let mut pairs = before.iter().zip(rest(&half));
-            pairs.all(|(a, b)| norm(a - b) <= SMALL)
+            pairs.all(|(a, b)| norm(a - b) <= ROUNDING)
         };
         self.is_free |= stays(&other);
         if !is_rigid {

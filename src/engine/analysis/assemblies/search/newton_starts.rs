@@ -5,6 +5,7 @@ use rand_pcg::Pcg64;
 
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::analysis::assemblies::track::{ParameterHomotopy, START, polish, stands_alone};
+use crate::number::tolerance::DOUBLE;
 use crate::solve::{Newton, Stop};
 use crate::system::{System, SystemWork};
 
@@ -26,9 +27,6 @@ pub(crate) fn reached(
     some: Option<(&System<C>, &mut SystemWork<C>)>,
     x: &[C],
 ) -> Option<Vec<C>> {
-    const NEARLY: f64 = 1e-8;
-    /// Ends farther out than this do not count: rounding decides where they are.
-    const FAR: f64 = 1e5;
     // what takes longer rarely ends at a solution
     let newton = Newton {
         max_steps: 60,
@@ -41,12 +39,13 @@ pub(crate) fn reached(
     let (system, work) = some.unwrap_or((&here.system, &mut here.work));
     let report = newton.solve(system, &mut at, &mut trial, work);
     let mut x = homotopy.family.coordinates.flatten(&at);
-    if size(&x).is_nan() || size(&x) > FAR {
+    // farther out rounding decides where ends are
+    if size(&x).is_nan() || size(&x) > 1e5 {
         return None;
     }
     match report.stop {
         Stop::Solved => Some(x),
-        Stop::Minimum if report.size.largest <= NEARLY * (1.0 + size(&x).powi(2)) => {
+        Stop::Minimum if report.size.largest <= 1e-8 * (1.0 + size(&x).powi(2)) => {
             polish(homotopy, START, &mut x).then_some(x)
         }
         Stop::Minimum | Stop::StepLimit => None,
@@ -70,7 +69,7 @@ pub(crate) fn newton_seeds(
     // solutions that coincide at the same point again
     let beside = reached(homotopy, None, &family.shaken(&x, 0.03, rng));
     match beside.map(|beside| family.coordinates.difference(&x, &beside)) {
-        Some(1e-3..1.0) => Seed::Free(homotopy.freedom(START, &x, 1e-5)),
+        Some(1e-3..1.0) => Seed::Free(homotopy.freedom(START, &x, DOUBLE)),
         Some(..1e-3) => Seed::Multiple(x),
         _ => Seed::Nothing,
     }

@@ -24,8 +24,6 @@ use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, complex::norm};
 use crate::solve::{Progress, Watch};
 
-/// And relative to the least change of a known solution's term, so that one like it would be missed.
-const SEEN: f64 = 1e-3;
 /// Pairs of rod and joint that are looked at.
 const PAIRS: usize = 40;
 /// Cuts that are kept.
@@ -50,7 +48,7 @@ pub(super) struct Cut {
     turning: C,
     /// The smaller problem.
     less: Family,
-    /// How many solutions that has at most, if it is known.
+    /// The number of solutions that it has at most, if that is known.
     most: Option<usize>,
 }
 
@@ -102,7 +100,7 @@ impl Cut {
 pub(super) struct Traces<'f> {
     /// True if a cut need not be a rod.
     of_points: bool,
-    /// What is left to cut by, once that was asked.
+    /// The cuts that are left, once they were looked for.
     cuts: Option<Vec<Cut>>,
     test: Option<RodTrace<'f>>,
     /// Numbers of solutions that were tested last, and for which a test failed last.
@@ -243,6 +241,7 @@ impl<'f> RodTrace<'f> {
             all += norm(*a) + norm(*b);
             least = least.min(norm(a - b));
         }
-        Some(norm(sum) <= ROUNDING * all && norm(sum) <= SEEN * least)
+        // one like the known solution whose term changes least would be missed
+        Some(norm(sum) <= ROUNDING * all && norm(sum) <= 1e-3 * least)
     }
 }

@@ -23,7 +23,7 @@ pub struct GenericSolutions {
     /// True if every seed led to another solution: they are not finite in number, and none is kept.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub endless: bool,
-    /// How they were searched for.
+    /// The search that found them.
     pub search: GenericSearch,
 }
 

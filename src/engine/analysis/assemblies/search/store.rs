@@ -9,6 +9,7 @@ use crate::analysis::assemblies::family::{Family, size, spanning_points};
 use crate::analysis::assemblies::track::START;
 use crate::mechanism::Mechanism;
 use crate::number::mark;
+use crate::number::tolerance::ROUNDING;
 
 const TITLE: &str = "linkwork generic solutions, version ";
 /// Counts changes of the text and of the meaning of its numbers.
@@ -61,7 +62,7 @@ impl GenericSolutions {
         };
         // the others are combinations of these
         let shown = spanning_points(&self.legwise, &family.coordinates);
-        (shown.iter()).all(|x| homotopy.linearise(START, x) <= 1e-9 * (1.0 + size(x).powi(2)))
+        (shown.iter()).all(|x| homotopy.linearise(START, x) <= ROUNDING * (1.0 + size(x).powi(2)))
     }
 }
 

@@ -4,6 +4,7 @@ use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::C;
 use crate::linear::{Decomposition, dot, norm};
 use crate::number::Number;
+use crate::number::tolerance::DIFFERENCE;
 
 /// A point of a homotopy where the Jacobian is singular.
 pub(crate) struct Meeting {
@@ -20,12 +21,10 @@ fn linear(homotopy: &mut ParameterHomotopy<'_>, s: f64, x: &[C]) -> (Vec<f64>, V
     (real(residual), real(jacobian))
 }
 
-const STEP: f64 = 1e-5;
-
-/// Central difference over 2·`STEP`.
+/// The central difference.
 fn slope(after: &[f64], before: &[f64]) -> Vec<f64> {
     let pairs = after.iter().zip(before);
-    pairs.map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
+    pairs.map(|(a, b)| (a - b) / (2.0 * DIFFERENCE)).collect()
 }
 
 /// The singular point near a real point of a path, by Newton's method for x and s on h(x, s) = 0 and
@@ -37,7 +36,6 @@ pub(crate) fn located(
     x: &[C],
 ) -> Option<Meeting> {
     const STEPS: usize = 25;
-    const REACH: f64 = 0.05;
     let unknowns = homotopy.unknowns();
     let regular = unknowns.checked_sub(1)?;
     let mut x = x.to_vec();
@@ -51,15 +49,15 @@ pub(crate) fn located(
         let here = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
         let v = here.null_space().pop()?;
         let left = here.left_null_space();
-        let later = linear(homotopy, s + STEP, &x);
-        let earlier = linear(homotopy, s - STEP, &x);
+        let later = linear(homotopy, s + DIFFERENCE, &x);
+        let earlier = linear(homotopy, s - DIFFERENCE, &x);
         let rate = slope(&later.0, &earlier.0);
         let mut ahead = |length: f64| {
             let step: Vec<C> = v.iter().map(|v| C::from_f64(v * length)).collect();
             let at = homotopy.moved(C::from_f64(s), &x, &step);
             linear(homotopy, s, &at).1
         };
-        let bent = slope(&ahead(STEP), &ahead(-STEP));
+        let bent = slope(&ahead(DIFFERENCE), &ahead(-DIFFERENCE));
         let swept = slope(&later.1, &earlier.1);
         let times = |matrix: &[f64]| -> Vec<f64> {
             let columns = || matrix.chunks_exact(rows);
@@ -80,7 +78,8 @@ pub(crate) fn located(
         let wanted = column(&residual, &|w| dot(w, &along));
         let step = Decomposition::of(wanted.len(), unknowns + 1, &entries).solve(&wanted);
         let length = norm(&step);
-        if !length.is_finite() || length > REACH {
+        // a point farther away is not that of the path
+        if !length.is_finite() || length > 0.05 {
             return None;
         }
         if length < 1e-14 || length >= 0.5 * before && length < 1e-9 {

@@ -4,6 +4,7 @@ pub(crate) use super::member::{END, START};
 use super::member::{MemberEquations, MemberSegment};
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::geometry::{Quaternion, Vector3};
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Number, complex};
 use crate::solve::{Equations, Homotopy};
 use crate::system::System;
@@ -32,7 +33,7 @@ pub(crate) struct ParameterHomotopy<'f> {
 }
 
 impl<'f> ParameterHomotopy<'f> {
-    /// The same way with a row that is to be `more` at its end.
+    /// The way with a row that is to be `more` at its end.
     pub fn raising(mut self, row: usize, more: C) -> Self {
         self.course.raised = Some((row, more));
         self
@@ -298,10 +299,6 @@ impl Homotopy for ParameterHomotopy<'_> {
     }
 
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
-        /// A gap is that much larger than a step that leaves it open; slopes are 1 at most.
-        const UNSEEN: f64 = 1e3;
-        /// Rounding of a gap.
-        const ROUNDING: f64 = 1e-10;
         let gap = self.linearise(s, x);
         let reach = 1.0 + size(x);
         // an angle so far out that its sine has no number gives no pivots, and steps of zero
@@ -348,8 +345,8 @@ impl Homotopy for ParameterHomotopy<'_> {
             largest = largest.max(moved / size);
         }
         let step = largest.sqrt();
-        // where the Jacobian is singular the least-squares step takes no notice of the gap that is left
-        match gap > ROUNDING * reach && gap > UNSEEN * step * reach {
+        // where the Jacobian is singular the least-squares step takes no notice of the gap that is left; slopes are 1 at most
+        match gap > ROUNDING * reach && gap > 1e3 * step * reach {
             true => f64::NAN,
             false => step,
         }
@@ -367,11 +364,10 @@ pub(super) const FAR: f64 = 1e3;
 
 impl crate::solve::Turning for ParameterHomotopy<'_> {
     fn is_far(&self, x: &[C]) -> bool {
-        /// A rotation by φ grows as e^|Im φ|, here to 1e6.
-        const TURNED: f64 = 14.0;
         let c = &self.family.coordinates;
         let mut joints = c.free_joints.iter().zip(x);
-        let turned = joints.any(|(&j, z)| c.turns[j].is_some() && z.im.abs() > TURNED);
+        // a rotation by φ grows as e^|Im φ|, here to 1e6
+        let turned = joints.any(|(&j, z)| c.turns[j].is_some() && z.im.abs() > 14.0);
         turned || size(x) > FAR * self.reach()
     }
 

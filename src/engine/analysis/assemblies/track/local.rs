@@ -8,10 +8,9 @@ use super::homotopy::{END, ParameterHomotopy};
 use crate::analysis::assemblies::family::{C, size};
 use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd, add, dot, independent, norm, singular_values};
 use crate::number::real;
+use crate::number::tolerance::DOUBLE;
 use crate::solve::deflating_step;
 
-/// Singular values this small relative to the largest may be zero.
-const SUSPECT: f64 = 1e-5;
 /// Distance of neighbours of a point, and of their neighbours.
 const BESIDE: [f64; 2] = [0.03, 2e-3];
 /// A point that comes back to within this part of the distance it was moved has returned.
@@ -97,7 +96,7 @@ impl<'a, 'f> Local<'a, 'f> {
             return dimension;
         }
         let linear = self.linear(x);
-        if self.freedom(&linear, SUSPECT) == 0 {
+        if self.freedom(&linear, DOUBLE) == 0 {
             return 0;
         }
         let mut largest = 0;
@@ -115,7 +114,7 @@ impl<'a, 'f> Local<'a, 'f> {
     /// The dimension spanned by the solutions beside a solution.
     fn spread(&mut self, x: &[C], stream: u64) -> usize {
         let linear = self.linear(x);
-        let free = linear.svd.values.len() - linear.rank(SUSPECT);
+        let free = linear.svd.values.len() - linear.rank(DOUBLE);
         if free == 0 {
             return 0;
         }
@@ -142,16 +141,15 @@ impl<'a, 'f> Local<'a, 'f> {
     /// that fails.
     pub fn refined(&mut self, x: &[C]) -> Vec<C> {
         const STEPS: usize = 4;
-        const REACH: f64 = 1e-3;
-        /// Singular values of a solution known to half its digits are this small.
-        const LOST: f64 = 1e-4;
         let mut at = x.to_vec();
         for _ in 0..STEPS {
-            let step = deflating_step(self.columns(), LOST, |shift| {
+            // singular values of a solution known to half its digits are so small
+            let step = deflating_step(self.columns(), 1e-4, |shift| {
                 let beside = self.moved(&at, shift);
                 self.evaluated(&beside)
             });
-            let Some(step) = step.filter(|step| largest(step) <= REACH) else {
+            // a longer one leads to another solution
+            let Some(step) = step.filter(|step| largest(step) <= 1e-3) else {
                 return x.to_vec();
             };
             at = self.moved(&at, &step);
@@ -165,10 +163,9 @@ impl<'a, 'f> Local<'a, 'f> {
     /// Multiplicity of an isolated solution, at least: at corank 1 the order to which the equations
     /// vanish along the null vector, at corank k no less than 2ᵏ.
     pub fn order(&mut self, x: &[C]) -> usize {
-        const STEP: f64 = 0.02;
         let linear = self.linear(x);
-        let rank = linear.rank(SUSPECT);
-        match self.freedom(&linear, SUSPECT) {
+        let rank = linear.rank(DOUBLE);
+        match self.freedom(&linear, DOUBLE) {
             0 => 1,
             1 => {
                 let mut gap = |length: f64| {
@@ -179,7 +176,7 @@ impl<'a, 'f> Local<'a, 'f> {
                     }
                     norm(&self.evaluated(&at).0)
                 };
-                let order = real::log2(gap(STEP) / gap(0.5 * STEP)).round();
+                let order = real::log2(gap(0.02) / gap(0.01)).round();
                 match order.is_finite() && (2.0..=16.0).contains(&order) {
                     true => order as usize,
                     false => 2,
@@ -199,9 +196,8 @@ impl<'a, 'f> Local<'a, 'f> {
     /// Gauss–Newton steps of least length to a solution.
     pub fn settled(&mut self, mut at: Vec<C>) -> Option<Vec<C>> {
         const STEPS: usize = 80;
-        const LONGEST: f64 = 0.1;
-        /// Residual of equations that only touch zero where their singular values are lost.
-        const TOLERANCE: f64 = RANK_TOLERANCE * RANK_TOLERANCE;
+        // the residual of equations that only touch zero where their singular values are lost
+        let tolerance = RANK_TOLERANCE * RANK_TOLERANCE;
         let mut best: Option<(f64, Vec<C>)> = None;
         let mut stale = 0;
         for _ in 0..STEPS {
@@ -218,16 +214,16 @@ impl<'a, 'f> Local<'a, 'f> {
             } else {
                 stale += 1;
             }
-            if error == 0.0 || stale > 8 || (stale > 2 && error < TOLERANCE) {
+            if error == 0.0 || stale > 8 || (stale > 2 && error < tolerance) {
                 break;
             }
             let rank = linear.rank(RANK_TOLERANCE);
             let step = linear.step(&linear.residual, rank);
-            let shorter = (LONGEST / largest(&step)).min(1.0);
+            let shorter = (0.1 / largest(&step)).min(1.0);
             at = self.moved(&at, &scaled(&step, shorter));
         }
         let (error, at) = best?;
-        (error <= TOLERANCE).then_some(at)
+        (error <= tolerance).then_some(at)
     }
 
     /// Corank; complex directions count once.

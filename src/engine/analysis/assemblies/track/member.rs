@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::analysis::assemblies::family::{C, Coordinates, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
+use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Dual, complex::norm};
 use crate::solve::Equations;
@@ -222,7 +223,6 @@ impl MemberEquations {
     /// surface of solutions, algebraic in t and e^{iφ}, passes through this one, and the screw's own are where
     /// it meets t = hφ: no end of them, unless t is the same all over the surface, as where a nut is held.
     pub fn is_endless(&self, family: &Family, course: &MemberSegment) -> bool {
-        const LOST: f64 = 1e-9;
         let Coordinates {
             screws,
             incommensurate,
@@ -248,7 +248,7 @@ impl MemberEquations {
             };
             apart.go(family, course, s);
             apart.linearise();
-            Some(apart.system.nullity(LOST, &apart.work))
+            Some(apart.system.nullity(RANK_TOLERANCE, &apart.work))
         };
         !incommensurate.is_empty() || !screws.is_empty() && freedom(false) > freedom(true)
     }
@@ -281,6 +281,7 @@ mod tests {
     use super::*;
     use crate::description::Description;
     use crate::mechanism::Mechanism;
+    use crate::number::tolerance::DIFFERENCE;
     use crate::solve::Homotopy;
     use crate::system::Question;
     use rand::SeedableRng;
@@ -316,7 +317,6 @@ mod tests {
             assert_eq!(again, rate);
         }
         // the rate is that of the residual: J dx/ds + ∂h/∂s = 0
-        const APART: f64 = 1e-5;
         let moved = |length: f64| -> Vec<C> {
             let pairs = x.iter().zip(&rate);
             let mut y: Vec<C> = pairs.map(|(x, r)| x + r * length).collect();
@@ -331,9 +331,9 @@ mod tests {
                 .residual_of(&homotopy.here.work)
                 .to_vec()
         };
-        let (after, before) = (at(APART), at(-APART));
+        let (after, before) = (at(DIFFERENCE), at(-DIFFERENCE));
         for (after, before) in after.iter().zip(&before) {
-            let slope = (after - before) / (2.0 * APART);
+            let slope = (after - before) / (2.0 * DIFFERENCE);
             assert!(slope.norm() < 1e-4, "{slope}");
         }
     }

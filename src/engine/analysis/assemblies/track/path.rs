@@ -7,7 +7,7 @@ use super::homotopy::{END, FAR, ParameterHomotopy, START};
 use super::local::Local;
 use super::simple::{are_one, stands_alone};
 use crate::analysis::assemblies::family::{C, size};
-use crate::number::tolerance::EXACT;
+use crate::number::tolerance::{DIFFERENCE, EXACT, SAME};
 use crate::number::{Number, complex, real};
 use crate::solve::{
     Arrival, Homotopy, Newton, PathEnd, Progress, Stages, Tracker, Watch, path_end,
@@ -40,8 +40,6 @@ impl End {
 
 /// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;
-/// Segments longer than this, in rad or characteristic lengths, are tracked in parts.
-const LONG: f64 = 10.0;
 
 /// A tracked path.
 #[derive(Clone)]
@@ -69,8 +67,8 @@ pub(crate) fn follow(
         steps += track.steps;
         track.arrival
     };
-    // each part ten times as long as all before it
-    let decades = real::log10(homotopy.length() / LONG)
+    // segments longer than ten rad or characteristic lengths are tracked in parts, each ten times as long as all before it
+    let decades = real::log10(homotopy.length() / 10.0)
         .ceil()
         .clamp(0.0, 12.0) as i32;
     let mut corners: Vec<C> = (1..=decades)
@@ -125,7 +123,6 @@ fn settles(homotopy: &mut ParameterHomotopy<'_>, x: &mut [C]) -> bool {
 /// The two simple solutions beside a point where they seem to coincide: the roots t of
 /// w·h + t w·Jv + ½ t² w·(v·∇)Jv for null vectors v and w of J at rank n − 1.
 fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
-    const STEP: f64 = 1e-4;
     const REACH: f64 = 1e-3;
     let (residual, jacobian) = homotopy.evaluated(END, x);
     let (rows, columns) = (residual.len(), homotopy.unknowns());
@@ -144,8 +141,8 @@ fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> 
         let (_, jacobian) = homotopy.evaluated(END, &at);
         w.dot(&(matrix(jacobian) * DVector::from_column_slice(&v)))
     };
-    let (after, before) = (slope(STEP), slope(-STEP));
-    let bent = (after - before) / (2.0 * STEP);
+    let (after, before) = (slope(DIFFERENCE), slope(-DIFFERENCE));
+    let bent = (after - before) / (2.0 * DIFFERENCE);
     let along = (after + before) * 0.5;
     let left = w.dot(&DVector::from_vec(residual));
     let root = Number::sqrt(along * along - bent * left * 2.0);
@@ -174,7 +171,7 @@ fn go_round(
             homotopy.family.coordinates.settle(&mut x);
             let mut refined = x.clone();
             let near = |homotopy: &ParameterHomotopy<'_>, y: &[C]| {
-                homotopy.family.coordinates.difference(&x, y) < 1e-6 * size(y).max(1.0)
+                homotopy.family.coordinates.difference(&x, y) < SAME * size(y).max(1.0)
             };
             if winding == 1
                 && settles(homotopy, &mut refined)

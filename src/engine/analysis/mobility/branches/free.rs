@@ -1,10 +1,9 @@
 //! Free directions of motion: those along which a finite step is possible.
 
 use super::walk::MOVED_ON_A_BRANCH;
-use super::{FiniteSearch, IndependentPart, LocalBranch, STEP, see};
-use crate::linear::dot;
+use super::{FiniteSearch, IndependentPart, LocalBranch, see};
 use crate::number::tolerance::ROUNDING;
-use crate::system::{FiniteStep, Tangent, combination};
+use crate::system::{FINITE_STEP, FiniteStep, Tangent, combination};
 
 /// Directions of motion that are tried; all must be free for the mechanism to be regular.
 const DIRECTIONS: usize = 3;
@@ -22,7 +21,8 @@ impl FiniteSearch<'_, '_> {
     pub fn regular_beside(&mut self, at: &Tangent) -> Option<Tangent> {
         let beside = (1..4).filter_map(|k| {
             let lasting = self.near.beside(&at.at, k)?.lasting(self.near);
-            let regular = lasting.locked.is_empty() && self.is_regular(&lasting.tangent, STEP, 3);
+            let regular =
+                lasting.locked.is_empty() && self.is_regular(&lasting.tangent, FINITE_STEP, 3);
             regular.then_some(lasting.tangent)
         });
         beside.min_by_key(|tangent| tangent.motions.len())
@@ -31,16 +31,15 @@ impl FiniteSearch<'_, '_> {
     /// Tests if all motions of an independent part are finite. Where its equations are independent they are, however
     /// near a singular configuration is: steps that do not lead back are repeated shorter.
     pub(super) fn finite(&mut self, own: &[bool], tangent: &Tangent) -> Free {
-        /// Factor by which each step is shorter, and number of such steps.
-        const SHORTER: f64 = 0.1;
+        /// Steps, each a tenth of the one before.
         const TIMES: usize = 4;
-        let steps = self.free(tangent, STEP);
+        let steps = self.free(tangent, FINITE_STEP);
         if steps.is_ok() || self.near.system().is_large() || !self.near.is_regular(&tangent.at, own)
         {
             return steps;
         }
         let shorter =
-            (1..=TIMES).find_map(|k| self.free(tangent, STEP * SHORTER.powi(k as i32)).ok());
+            (1..=TIMES).find_map(|k| self.free(tangent, FINITE_STEP * 0.1f64.powi(k as i32)).ok());
         Ok(shorter.unwrap_or_else(|| {
             let mut moved = vec![false; tangent.columns()];
             for motion in &tangent.motions {
@@ -89,17 +88,20 @@ impl FiniteSearch<'_, '_> {
         let directions: Vec<Vec<f64>> = (0..DIRECTIONS)
             .map(|_| combination(&tangent.motions, &mut self.rng))
             .collect();
-        let (one, others) = self.near.hindered_alone(tangent, &directions, STEP)?;
+        let (one, others) = self
+            .near
+            .hindered_alone(tangent, &directions, FINITE_STEP)?;
         let is_open = [1.0, -1.0].into_iter().all(|sign| {
             let direction: Vec<f64> = one.iter().map(|x| sign * x).collect();
-            let step = self.near.free_step(tangent, &direction, STEP);
+            let step = self.near.free_step(tangent, &direction, FINITE_STEP);
             matches!(step, Err(Some(gap)) if gap > ROUNDING)
         });
         let others = Tangent {
             motions: others,
             ..tangent.clone()
         };
-        let all_free = others.motions.is_empty() || self.is_regular(&others, STEP, DIRECTIONS);
+        let all_free =
+            others.motions.is_empty() || self.is_regular(&others, FINITE_STEP, DIRECTIONS);
         (is_open && all_free).then(|| {
             let mut moved = vec![false; tangent.columns()];
             for motion in &others.motions {
@@ -133,10 +135,9 @@ impl FiniteSearch<'_, '_> {
     /// A finite step along the only motion, by steps each with its own Jacobian: where the Jacobian is ill-conditioned, as
     /// in long rows of loops, a fixed one does not lead back at any length.
     fn settled(&mut self, tangent: &Tangent, direction: &[f64]) -> Option<FiniteStep> {
-        const ALONG: f64 = 0.95;
-        let (at, way) = self.near.arrive(tangent, direction, STEP)?;
+        let at = self.near.ahead(tangent, direction, FINITE_STEP)?;
         let gap = self.near.residual(&at);
-        (dot(&way, direction) > ALONG).then_some(FiniteStep { at, gap })
+        Some(FiniteStep { at, gap })
     }
 
     /// True if several random directions of motion are all free; then, almost surely, every direction is.

@@ -2,16 +2,13 @@
 
 use rand_pcg::Pcg64Mcg;
 
-use super::{BRANCH_STEP, BRANCH_TRIALS, FiniteSearch, see};
+use super::{BRANCH_TRIALS, FiniteSearch, see};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
-use crate::system::{Cone, Tangent, combination};
+use crate::system::{Cone, SET_STEP, Tangent, combination};
 
 /// Part of the step by which a joint that moves on a branch moves: other freedoms leave slack.
 pub(super) const MOVED_ON_A_BRANCH: f64 = 1e-3;
-
-/// Sine below which tangents beside the meeting point are those of one branch.
-const SAME_BRANCH: f64 = 0.15;
 
 /// Directions to try: on the quadratic cone, between the basis vectors, both ways along each.
 pub(super) struct WalkDirections {
@@ -81,7 +78,8 @@ pub(super) struct Seen {
 
 impl Seen {
     fn agrees(&self, other: &Tangent) -> bool {
-        same(&self.beside.motions, &other.motions, SAME_BRANCH)
+        // the sine of the angle between tangents of one branch beside the meeting point
+        same(&self.beside.motions, &other.motions, 0.15)
     }
 }
 
@@ -121,7 +119,7 @@ pub(super) struct BranchWalk<'w, 's, 'm> {
 impl BranchWalk<'_, '_, '_> {
     /// Adds the branch that a small step along a direction settles on, if it does.
     pub fn explore(&mut self, direction: &[f64]) {
-        let reach = BRANCH_STEP;
+        let reach = SET_STEP;
         let Some((mut at, way)) = self.search.near.arrive(self.from, direction, reach) else {
             return;
         };
@@ -147,7 +145,7 @@ impl BranchWalk<'_, '_, '_> {
 
     /// Adds the branch of a point, which moves on to where all infinitesimal freedoms are finite.
     fn look(&mut self, point: Tangent) {
-        let reach = BRANCH_STEP;
+        let reach = SET_STEP;
         let step = 0.3 * reach;
         if point.motions.is_empty() {
             return;
@@ -198,7 +196,7 @@ impl BranchWalk<'_, '_, '_> {
 
     fn add(&mut self, beside: Tangent, regular: bool) {
         let way = self.way(&beside.at);
-        let clearly = MOVED_ON_A_BRANCH * BRANCH_STEP;
+        let clearly = MOVED_ON_A_BRANCH * SET_STEP;
         let known = |seen: &&mut Seen| seen.regular == regular && seen.agrees(&beside);
         if let Some(known) = self.seen.iter_mut().find(known) {
             return see(&mut known.moved, &way, clearly);

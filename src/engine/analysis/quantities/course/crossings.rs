@@ -26,8 +26,6 @@ impl Course<'_> {
     pub(super) fn continue_crossings(&mut self, meter: &mut Meter) {
         /// The lengths of parts, in rad and characteristic lengths: the shorter, the more is rounded.
         const LENGTHS: [f64; 5] = [0.4, 0.2, 0.1, 0.05, 0.025];
-        /// Largest distance from a polynomial, relative to the largest value: places near the crossing are rounded more.
-        const OFF: f64 = 1e-8;
         let basis = lagrange(Some(AT));
         for crossing in self.crossings.clone() {
             for before in [true, false] {
@@ -46,7 +44,8 @@ impl Course<'_> {
                         let fit = self.fit(name, &samples, Some(AT), &basis);
                         let better =
                             |(known, _): &(PolynomialFit, _)| fit.may_be_off() < known.may_be_off();
-                        let near = fit.near || fit.known && fit.off <= OFF * fit.largest;
+                        // places near the crossing are rounded more
+                        let near = fit.near || fit.known && fit.off <= 1e-8 * fit.largest;
                         if near && best.as_ref().is_none_or(better) {
                             *best = Some((fit, part.clone()));
                         }
@@ -164,8 +163,6 @@ impl Course<'_> {
 
     /// Takes the polynomial of a name along a part for that on pieces of it: next to the crossing, and where it is better.
     fn continue_name(&mut self, name: usize, fit: &PolynomialFit, part: &Approach) {
-        /// Nearer than this part of it rounding shows.
-        const NEXT: f64 = 0.1;
         /// At the crossing, beyond the last of its places, rounding grows 15-fold (the sum of the Lagrange polynomials there)
         /// and the distance seen at the second compared place 13-fold (the ratio of the products of distances to the places),
         /// as far as the ninth derivative is constant; here it may be three times as large.
@@ -182,7 +179,8 @@ impl Course<'_> {
                 2.0 * (measure - far) / (near - far) - 1.0
             });
             let beyond = ends[0].min(ends[1]) < -1.0 - 1e-12;
-            let next = ends[0].min(ends[1]) > 1.0 - 2.0 * NEXT;
+            // in the tenth next to the crossing rounding shows
+            let next = ends[0].min(ends[1]) > 0.8;
             let worse = piece.fits[name] == FitQuality::Rough || piece.noise[name] > off;
             if beyond || !next && !worse {
                 continue;

@@ -8,6 +8,7 @@ use crate::analysis::sweep::Row;
 use crate::mechanism::{Configuration, Measured};
 use crate::number::Number;
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::ROUNDING;
 use crate::solve::{Stage, Watch};
 
 /// A piece that is to be examined.
@@ -113,8 +114,6 @@ impl Course<'_> {
     /// Integrates powers over the time, in s for all of it, to the works among the names: ∫ P·t′ ds, of the polynomials
     /// term by term.
     pub fn gather(&mut self, duration: f64) {
-        /// The part of the work so far that may be lost at kinks; where more is, the power has no bound.
-        const LOST: f64 = 1e-9;
         let lagrange = lagrange(None);
         let time = self.names.len();
         let power_of = |name: &Name| match name.of {
@@ -147,8 +146,9 @@ impl Course<'_> {
                 }
                 let [from, to] = [-1.0, 1.0].map(|s| polynomial(&piece.terms[time], s));
                 let long = duration * (to - from).abs();
+                // more than rounding of the work so far lost at a kink: the power has no bound
                 if piece.fits[power] == FitQuality::Rough {
-                    let known = beside * long <= LOST * size || long == 0.0;
+                    let known = beside * long <= ROUNDING * size || long == 0.0;
                     terms = [if known { 0.0 } else { f64::NAN }; WORK_TERMS];
                 }
                 terms[0] = done - polynomial(&terms, -1.0);
@@ -227,8 +227,6 @@ impl Course<'_> {
         samples: &Samples,
         lagrange: &[[f64; TERMS]; TERMS],
     ) -> (StretchPiece, Vec<f64>) {
-        /// Rounding near a singularity, relative to that value: halving the piece does not make it less.
-        const ROUNDING: f64 = 1e-6;
         let mut all_off = Vec::new();
         let mut piece = StretchPiece {
             stretch: of.stretch,
@@ -244,7 +242,8 @@ impl Course<'_> {
             let fit = self.fit(name, samples, None, lagrange);
             let before = of.off.get(name);
             let rounded = before.is_some_and(|before| fit.off > 0.8 * before);
-            let rounded = fit.known && rounded && fit.off <= ROUNDING * fit.largest;
+            // rounding near a singularity: halving the piece does not make it less
+            let rounded = fit.known && rounded && fit.off <= 1e-6 * fit.largest;
             all_off.push(if fit.known { fit.off } else { f64::INFINITY });
             // no value anywhere, though the configurations are known
             let nowhere = samples.iter().all(|of| of[name][0].is_nan()) && is_solved;
@@ -269,8 +268,6 @@ impl Course<'_> {
         without: Option<usize>,
         lagrange: &[[f64; TERMS]; TERMS],
     ) -> PolynomialFit {
-        /// Largest distance of a name from its polynomial, relative to its largest value on the piece.
-        const OFF: f64 = 1e-11;
         let mut values: [f64; PLACES] = std::array::from_fn(|place| samples[place][name][0]);
         if self.names.get(name).is_some_and(Name::turns) {
             for i in 1..PLACES {
@@ -291,7 +288,8 @@ impl Course<'_> {
         let noise = samples.iter().map(|of| of[name][1]).fold(0.0, finite);
         let off = COMPARED.map(|place| (polynomial(&terms, places()[place]) - values[place]).abs());
         let most = self.most.get(name).copied().unwrap_or(0.0);
-        let near = (OFF * largest + 8.0 * noise).max(f64::EPSILON * most);
+        // relative to the largest value on the piece
+        let near = (1e-11 * largest + 8.0 * noise).max(f64::EPSILON * most);
         PolynomialFit {
             near: off.iter().all(|off| *off <= near),
             known: off.iter().all(|off| off.is_finite()),

@@ -9,8 +9,6 @@ impl Course<'_> {
     pub fn samples(&self, of: &Sought, tolerance: f64) -> (Vec<Sample>, bool) {
         /// The number of parts examined, beside the pieces themselves.
         const PATIENCE: usize = 1_000_000;
-        /// Distance from a straight line, relative to the tolerance.
-        const OFF: f64 = 1e-3;
         let mut samples: Vec<Sample> = Vec::new();
         let patience = PATIENCE + 8 * self.pieces.len();
         let whole = self.walk(of, patience, &mut |part, model| {
@@ -28,7 +26,8 @@ impl Course<'_> {
             };
             let bend = model.bend();
             let leaves = model.terms[1].abs() - bend > 2.0 * tolerance;
-            if bend > OFF * tolerance && !leaves && !self.is_narrow(part) {
+            // far less than the tolerance off a straight line
+            if bend > 1e-3 * tolerance && !leaves && !self.is_narrow(part) {
                 return true;
             }
             for t in [-1.0, 1.0] {

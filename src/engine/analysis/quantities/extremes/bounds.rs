@@ -63,8 +63,6 @@ impl Bounds {
 pub(super) fn bounds(course: &Course, of: &Sought) -> Bounds {
     /// The number of parts examined, beside the pieces themselves.
     const PATIENCE: usize = 400_000;
-    /// Values that may be off more than this, and more than is usual, are no better than others: they are near 0/0.
-    const CLEAR: f64 = 1e-7;
     let mut bounds = Bounds {
         best: [None; 2],
         murky: [None; 2],
@@ -95,7 +93,8 @@ pub(super) fn bounds(course: &Course, of: &Sought) -> Bounds {
     });
     let [usual, usually_off] = bounds.usual;
     let clear = |value: f64, noise: f64| {
-        noise <= f64::max(CLEAR * (value.abs() + usual), 10.0 * usually_off)
+        // values that may be off by more, and more than is usual, are near 0/0
+        noise <= f64::max(1e-7 * (value.abs() + usual), 10.0 * usually_off)
     };
     // an angle without jumps is known only along the way
     for (value, noise, piece, s) in seen.into_iter().filter(|_| !of.jumps) {

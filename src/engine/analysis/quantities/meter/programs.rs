@@ -7,6 +7,7 @@ use super::Metered;
 use crate::algebra::{Expression, Function, Node, SiUnit};
 use crate::analysis::sweep::Law;
 use crate::mechanism::{Measured, Order, Quantity};
+use crate::number::tolerance::ROUNDING;
 use crate::number::{Dual, Number};
 
 /// A name in a quantity, and true if it is read at a constant pace: a quantity that does not depend on the law has a
@@ -115,7 +116,7 @@ fn is_geometric(expression: &Expression<Measured>) -> bool {
                 });
                 alone.map_or(0.0, |of| of.slope.abs())
             });
-            if found.slope.abs() > 1e-9 * most.fold(0.0, f64::max) {
+            if found.slope.abs() > ROUNDING * most.fold(0.0, f64::max) {
                 return false;
             }
             decided = true;

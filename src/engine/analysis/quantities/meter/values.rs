@@ -9,7 +9,7 @@ use crate::mechanism::{
     ScrewPart,
 };
 use crate::number::Number;
-use crate::number::tolerance::SOLVED;
+use crate::number::tolerance::{SOLVED, STILL};
 use crate::system::{Balance, Coordinate};
 
 /// A configuration with the known rates and figures.
@@ -214,11 +214,10 @@ impl Meter<'_> {
                 Some(across.norm() / size.powi(3))
             }
             Measured::Screw(_, part) => {
-                /// What turns less than this beside its fastest joints is shifted.
-                const TURNS: f64 = 1e-7;
                 let [turn, shift] = self.twist(here, i)?;
                 let size = turn.norm();
-                if !here.largest[0].scale(TURNS).less(size) {
+                // what hardly turns beside its fastest joints is shifted
+                if !here.largest[0].scale(STILL).less(size) {
                     return None;
                 }
                 let square = size * size;

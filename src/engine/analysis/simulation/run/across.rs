@@ -54,6 +54,9 @@ pub(super) fn across(
     None
 }
 
+/// The part of the largest margin below which rounding is felt in accelerations.
+pub(super) const NEARLY_SINGULAR: f64 = 0.03;
+
 /// The margin of the closure equations at a state.
 fn margin(dynamics: &mut Dynamics, laws: &Laws, state: &[f64]) -> Option<f64> {
     let closed = dynamics.close(&laws.values(state)[..laws.units.len()]);
@@ -63,9 +66,8 @@ fn margin(dynamics: &mut Dynamics, laws: &Laws, state: &[f64]) -> Option<f64> {
 impl Run<'_, '_> {
     /// The margin below which rounding is felt in accelerations; 0 if singular configurations end the motion.
     pub(super) fn sick(&self) -> f64 {
-        const SICK: f64 = 0.03;
         match self.settings.through {
-            true => SICK * self.widest,
+            true => NEARLY_SINGULAR * self.widest,
             false => 0.0,
         }
     }

@@ -39,8 +39,6 @@ impl Run<'_, '_> {
         rates: &[f64],
         instant: &Accelerated,
     ) -> Option<SimulationEnd> {
-        /// Slower than this, in rad and characteristic lengths per s, a joint rests on its limit.
-        const AT_REST: f64 = 1e-4;
         let (place, of) = (joint, Coordinate::Joint(joint));
         let name = self.mechanism.joints()[joint].name.clone();
         let mut normal = self.dynamics.rates_of(of);
@@ -56,7 +54,8 @@ impl Run<'_, '_> {
         let Some(mut restitution) = self.settings.restitution else {
             return end();
         };
-        let rests = speed.abs() * restitution < AT_REST * of.scale(self.mechanism);
+        // slower, in rad and characteristic lengths per s, it rests on the limit
+        let rests = speed.abs() * restitution < 1e-4 * of.scale(self.mechanism);
         if rests {
             restitution = 0.0;
         }
@@ -297,11 +296,10 @@ impl Run<'_, '_> {
         after: f64,
         margin: &mut f64,
     ) -> Option<f64> {
-        /// Part of a step in which the slope of the margin is seen.
-        const SHORT: f64 = 0.02;
-        /// Less than this is a zero.
+        /// As near as the place of a dip is found.
         const ZERO: f64 = 1e-6;
-        let near = SHORT * (after - before);
+        // the slope of the margin is seen in a fiftieth of the step
+        let near = 0.02 * (after - before);
         let height = |run: &mut Self, integrator: &mut Integrator, time: f64| {
             run.within(integrator, time)?;
             Some(-run.dynamics.margin())

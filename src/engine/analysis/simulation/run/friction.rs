@@ -3,6 +3,7 @@
 use super::*;
 use crate::algebra::Expression;
 use crate::mechanism::Friction;
+use crate::number::tolerance::ROUNDING;
 
 /// A joint that no longer sticks.
 pub(super) struct Slip<'a> {
@@ -24,15 +25,13 @@ impl Stuck {
 impl<'a> Run<'a, '_> {
     /// Finds the directions in which joints slide at the start; those at rest are held where friction suffices.
     pub(super) fn begin_friction(&mut self, rates: &[f64]) {
-        /// Slower joints than this part of the fastest are at rest.
-        const AT_REST: f64 = 1e-12;
         let frictions = self.dynamics.frictions();
         if frictions.is_empty() {
             return;
         }
         let all = self.dynamics.rates().to_vec();
         let largest = all.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let sign = |of: &Friction| match all[of.joint].abs() <= AT_REST * largest {
+        let sign = |of: &Friction| match all[of.joint].abs() <= ROUNDING * largest {
             true => 0.0,
             false => all[of.joint].signum(),
         };
@@ -125,9 +124,8 @@ impl<'a> Run<'a, '_> {
 
     /// True if a joint moves with the independent coordinates.
     fn moves(&self, joint: usize) -> bool {
-        const STILL: f64 = 1e-9;
         let slope = self.dynamics.rates_of(Coordinate::Joint(joint));
-        slope[..self.free()].iter().any(|x| x.abs() > STILL)
+        slope[..self.free()].iter().any(|x| x.abs() > ROUNDING)
     }
 
     /// The equations with these joints held, at the configuration last closed.
@@ -155,10 +153,6 @@ impl<'a> Run<'a, '_> {
     /// A joint that no longer sticks at the configuration last closed, with these rates: with all friction against a motion
     /// of it in one direction, away from a limit if it rests on one, it is accelerated in that direction.
     pub(super) fn slipping(&mut self, time: f64, rates: &[f64]) -> Option<Slip<'a>> {
-        /// Slower than this, in rad and characteristic lengths per s², nothing begins to move.
-        const BEGINS: f64 = 1e-10;
-        /// Less than this part of what could move does not.
-        const STILL: f64 = 1e-9;
         for (k, &stuck) in self.stuck.iter().enumerate() {
             let joint = stuck.joint;
             let mut others = self.stuck.clone();
@@ -178,7 +172,7 @@ impl<'a> Run<'a, '_> {
                 let sign = |(of, slides): (&Friction, &f64)| {
                     let slope = along(&dynamics, of.joint);
                     let rate = dot(&slope, &pushed);
-                    let rests = rate.abs() <= STILL * norm(&pushed) * norm(&slope);
+                    let rests = rate.abs() <= ROUNDING * norm(&pushed) * norm(&slope);
                     match *slides {
                         0.0 if rests || others.iter().any(|other| other.joint == of.joint) => 0.0,
                         0.0 => side * rate.signum(),
@@ -192,7 +186,7 @@ impl<'a> Run<'a, '_> {
                     continue;
                 };
                 let pace = side * dynamics.accelerations(&now.accelerations, &driven)[joint];
-                if pace > BEGINS {
+                if pace > ROUNDING {
                     return Some(Slip {
                         stuck,
                         pace,

@@ -3,11 +3,11 @@
 use super::super::Linear;
 use super::*;
 use crate::description::Role;
+use crate::number::tolerance::FIVE_POINTS;
 
 impl Run<'_, '_> {
     /// The equations linearised at the state; `None` where something has no value.
     pub(super) fn linear(&mut self) -> Option<Linear> {
-        const STEP: f64 = 1e-3;
         let (mechanism, free) = (self.mechanism, self.free());
         let (rates, instant) = at(self.dynamics, &self.laws, 0.0, &self.state)?;
         let names = self.dynamics.coordinates().iter();
@@ -51,16 +51,16 @@ impl Run<'_, '_> {
         let mut columns_of: Vec<Vec<f64>> = Vec::new();
         for (place, scale) in places.iter().zip(&scales) {
             let mut slope = vec![0.0; free + outputs.len()];
-            for (steps, weight) in [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)] {
+            for (length, weight) in FIVE_POINTS {
                 let mut moved = state.clone();
-                moved[*place] += steps * STEP;
+                moved[*place] += length;
                 let (_, instant) = at(self.dynamics, &self.laws, 0.0, &moved)?;
                 let values = self.values(0.0, &moved)?;
                 let found = [&instant.accelerations[..], &values[..outputs.len()]].concat();
-                add(&mut slope, weight / (12.0 * STEP * scale), &found);
+                add(&mut slope, weight / scale, &found);
             }
             let largest = slope.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            let rounding = SUMMED / STEP * largest;
+            let rounding = SUMMED / FIVE_POINTS[2].0 * largest;
             for x in slope.iter_mut().filter(|x| x.abs() <= rounding) {
                 *x = 0.0;
             }

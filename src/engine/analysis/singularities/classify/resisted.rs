@@ -4,6 +4,7 @@ use super::{CLOSURES, Classifier, INVERSE, Resisted};
 use crate::geometry::Vector3;
 use crate::linear::{RANK_TOLERANCE, add, complement, dot, norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Point};
+use crate::number::tolerance::STILL;
 use crate::system::{Coordinate, Lock, wrench_screws};
 
 /// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the point.
@@ -31,7 +32,7 @@ impl Classifier<'_> {
         let outside = here.iter().any(|direction| {
             let mut left = direction.clone();
             remove(&mut left, &there);
-            norm(&left) > 1e-6
+            norm(&left) > STILL
         });
         if outside {
             return Vec::new();

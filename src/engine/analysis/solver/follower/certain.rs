@@ -2,7 +2,8 @@
 
 use super::past::Past;
 use crate::algebra::{BATCH, Registers};
-use crate::system::{BRANCH_CHANGE, BRANCH_STEP, LaneNumbers, Mask, bits, choose};
+use crate::number::tolerance::LONGEST_STEP;
+use crate::system::{BRANCH_CHANGE, LaneNumbers, Mask, bits, choose};
 
 /// For each motion the last solution tested, and the distance from it within which others are certainly on its branch.
 ///
@@ -111,7 +112,7 @@ impl Certain {
         let mut sure = *of;
         (0..BATCH).for_each(|i| {
             let (square, way) = (squares.0[i], apart.0[i]);
-            let changes_little = square <= BRANCH_CHANGE.powi(2) && way <= BRANCH_STEP.powi(2);
+            let changes_little = square <= BRANCH_CHANGE.powi(2) && way <= LONGEST_STEP.powi(2);
             let certain =
                 size.0[i].is_finite() && (36.0 * size.0[i] * way <= 1.0 || changes_little);
             sure[i] &= bits(certain);

@@ -53,8 +53,6 @@ impl<'m> JointCourse<'m> {
         found: &FoundCurve,
         of: Coordinate,
     ) -> Option<Self> {
-        /// Angles that change more in one step do not follow from the pose.
-        const JUMP: f64 = 0.5;
         let is_angle = of.is_angle(mechanism);
         let near = |value: f64, before: f64| match is_angle {
             true => before + turn_near(value - before, 0.0),
@@ -66,7 +64,8 @@ impl<'m> JointCourse<'m> {
             let value = of.of(mechanism, &place.at);
             let before = values.last().copied();
             let value = before.map_or(value, |before| near(value, before));
-            if is_angle && before.is_some_and(|before| (value - before).abs() > JUMP) {
+            // angles that change more in one step do not follow from the pose
+            if is_angle && before.is_some_and(|before| (value - before).abs() > 0.5) {
                 return None;
             }
             values.push(value);

@@ -1,9 +1,9 @@
 //! Pairs of conjugate configurations followed until they are real.
 
-use super::tracing::SAME;
 use crate::linear::norm;
 use crate::mechanism::Configuration;
 use crate::number::C;
+use crate::number::tolerance::SAME;
 use crate::solve::{Continuation, CurvePoint, Watch};
 use crate::system::{ComplexCurve, Curve};
 
@@ -45,8 +45,7 @@ impl PairPaths<'_> {
 
     /// True if cosines are so large that rounding may keep paths from being followed.
     pub fn is_far(&self, at: &Configuration<C>) -> bool {
-        const FAR: f64 = 5.0;
-        self.complex.depth(at) > FAR
+        self.complex.depth(at) > 5.0
     }
 
     /// A place on the pair that leaves a real curve at a dead point, where the joint has gone beyond it.
@@ -69,8 +68,6 @@ impl PairPaths<'_> {
         mut place: CurvePoint<Configuration<C>>,
         (up, joint): (bool, usize),
     ) -> PairEnd {
-        /// Imaginary angles this large have cosines of some thousands, and with others rounding tells nothing.
-        const INFINITE: f64 = 9.0;
         let mut length = 0.1 * self.method.longest;
         let mut before = 0.0;
         let mut none_ahead = false;
@@ -122,7 +119,8 @@ impl PairPaths<'_> {
             {
                 return PairEnd::Real(dead.at);
             }
-            if self.complex.depth(&place.at) > INFINITE {
+            // cosines of some thousands: with others rounding tells nothing
+            if self.complex.depth(&place.at) > 9.0 {
                 return PairEnd::Pole(self.complex.value(&place.at));
             }
             before = imaginary;

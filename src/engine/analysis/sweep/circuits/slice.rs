@@ -10,11 +10,12 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::pairs::{ARRIVED, PairEnd, PairPaths};
-use super::tracing::{SAME, Tracing};
+use super::tracing::Tracing;
 use crate::algebra::SiUnit;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, turn_near};
 use crate::number::sorting::sort_by;
+use crate::number::tolerance::SAME;
 use crate::number::{C, Number};
 use crate::solve::{Continuation, Watch};
 use crate::system::{ComplexCurve, Held};

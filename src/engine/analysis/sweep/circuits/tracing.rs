@@ -7,11 +7,9 @@ use super::super::begin::forwards;
 use super::CircuitsSettings;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::SAME;
 use crate::solve::{BranchPoint, Continuation, CurvePoint, Stage, Watch};
 use crate::system::{Curve, Event, Held, NoStart, Still, Walk, sets_of_angles};
-
-/// Configurations nearer than this, in rad and characteristic lengths, are one.
-pub(super) const SAME: f64 = 1e-6;
 
 /// A curve as it was followed.
 pub(super) struct FoundCurve {
@@ -86,15 +84,14 @@ impl<'a> Tracing<'a> {
 
     /// Follows the curve through a seed if it lies on none so far, and those that cross it.
     pub fn take(&mut self, seed: &Configuration<f64>) {
-        /// A crossing this near is where a seed lies whose tangent rounding hides.
-        const REACH: f64 = 1e-3;
         let (mechanism, method) = (self.mechanism, self.method());
         let mut seed = seed.clone();
         let begun = self.curve.begin(mechanism, &mut seed, method);
         let place = match begun {
             Ok(place) => place,
             Err(NoStart::Singular) => {
-                let point = method.branch_point(&mut self.curve, &seed, REACH);
+                // a crossing so near is where a seed lies whose tangent rounding hides
+                let point = method.branch_point(&mut self.curve, &seed, 1e-3);
                 let waiting = point.map_or(Vec::new(), |point| self.leaving(&point));
                 self.unusable += usize::from(waiting.is_empty());
                 return self.follow(waiting);
@@ -152,13 +149,13 @@ impl<'a> Tracing<'a> {
     /// to place, and at a dead point rounding decides whether the curve begins before or behind it.
     fn clear(&mut self, place: At) -> At {
         const CLEAR: f64 = 0.02;
-        const TURNING: f64 = 1e-3;
         const STEPS: usize = 60;
         let joints = 0..self.mechanism.joints().len();
         let columns: Vec<usize> = joints
             .filter_map(|joint| self.curve.column(joint))
             .collect();
-        let turns = |place: &At| columns.iter().any(|j| place.tangent[*j].abs() < TURNING);
+        // a joint that hardly moves is about to turn back
+        let turns = |place: &At| columns.iter().any(|j| place.tangent[*j].abs() < 1e-3);
         let clearance = |place: &At| place.least() / place.largest();
         let (mut best, mut turning) = (place.clone(), turns(&place));
         let mut walk = Walk::new(self.mechanism, &self.curve, place, self.method().clone());

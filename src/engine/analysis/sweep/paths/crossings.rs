@@ -3,16 +3,13 @@
 use super::{At, PathPoint, Tracer};
 use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
-use crate::number::tolerance::{ROUNDING, SOLVED};
+use crate::number::tolerance::{ROUNDING, SAME, SOLVED};
 use crate::number::{real, sorting::sort_by};
 use crate::solve::Continuation;
 use crate::system::Curve;
 
 /// A configuration in which the point is there, and the number of its circuit.
 type PathPassage = (At, usize);
-
-/// Configurations, and points over the characteristic length, this near are the same.
-const SAME: f64 = 1e-8;
 
 /// A straight piece between two points of a path.
 struct PathPiece {
@@ -30,8 +27,6 @@ pub(super) fn double_points(
     method: &Continuation,
     curves: &[(&[At], bool)],
 ) -> Vec<PathPoint> {
-    /// The path lies no farther off its chord, in parts of the chord.
-    const BULGE: f64 = 0.3;
     let mut pieces: Vec<PathPiece> = Vec::new();
     for (number, (places, _)) in curves.iter().enumerate() {
         let points: Vec<_> = places.iter().map(|p| tracer.position(&p.at)).collect();
@@ -41,7 +36,8 @@ pub(super) fn double_points(
             if chord < ROUNDING * tracer.length {
                 continue;
             }
-            let slack = BULGE * chord;
+            // the path lies no farther off its chord than 0.3 of it
+            let slack = 0.3 * chord;
             let [a, b] = ends.map(|end| end.0);
             pieces.push(PathPiece {
                 curve: number,
@@ -112,10 +108,6 @@ fn crossing(
     pieces: [&PathPiece; 2],
 ) -> Option<[At; 2]> {
     const STEPS: usize = 20;
-    /// Sine of the least angle between the branches.
-    const TANGENT: f64 = 1e-6;
-    /// Parts of a step that a crossing may lie outside it.
-    const BESIDE: f64 = 0.1;
     let from = pieces.map(|piece| &curves[piece.curve].0[piece.number]);
     let ends = pieces.map(|piece| &curves[piece.curve].0[piece.number + 1]);
     let lengths: [f64; 2] = std::array::from_fn(|k| {
@@ -148,15 +140,16 @@ fn crossing(
             let turned = dot(&places[k].tangent, &from[k].tangent);
             tracer.velocity(&places[k]).times(1.0 / turned)
         });
-        let step = nearest(&rates, &gap, TANGENT)?;
+        let step = nearest(&rates, &gap, SAME)?;
         let size = real::hypot(step[0], step[1]);
         if size < 1e-13 || (size < 1e-10 && size >= 0.5 * before) {
             let inside = (0..2).all(|k| {
                 let part = along[k] / lengths[k];
-                (-BESIDE..=1.0 + BESIDE).contains(&part)
+                // a crossing may lie a tenth of a step outside it
+                (-0.1..=1.1).contains(&part)
             });
             let apart = norm(&curve.difference_but_turns(&places[0].at, &places[1].at));
-            let met = inside && gap.norm() < SOLVED && apart > 1e-6;
+            let met = inside && gap.norm() < SOLVED && apart > SAME;
             let [first, second]: [At; 2] = places.try_into().ok()?;
             return met.then_some([first, second]);
         }

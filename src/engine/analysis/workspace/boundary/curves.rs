@@ -176,25 +176,22 @@ fn beside<P>(
     mapped: impl Fn(usize, usize) -> f64,
     step: impl Fn(usize) -> Vec<f64>,
 ) -> Option<Option<f64>> {
-    /// Parts of the chord.
-    const ON_IT: f64 = 0.1;
-    const NEAR: f64 = 1.0;
-    /// Pieces farther than so many chords in a mapped coordinate are not near.
-    const REACH: f64 = 3.0;
     /// Pieces that are near one another because they follow one another.
     const NEXT: usize = 4;
     let pieces = known.chords.len();
     let mut beside: Vec<(usize, f64, f64)> = Vec::new();
     for (i, chord) in known.chords.iter().enumerate() {
         let square = dot(chord, chord);
-        if (0..2).any(|k| mapped(k, i).powi(2) > REACH * REACH * square) {
+        // not near: more than three chords away in a mapped coordinate
+        if (0..2).any(|k| mapped(k, i).powi(2) > 9.0 * square) {
             continue;
         }
         let to = step(i);
         let part = (dot(chord, &to) / square).clamp(0.0, 1.0);
         let off = chord.iter().zip(&to).map(|(c, x)| (x - part * c).powi(2));
         let off = (off.sum::<f64>() / square).sqrt();
-        if off <= NEAR {
+        // within a chord of it
+        if off <= 1.0 {
             beside.push((i, part, off));
         }
     }
@@ -205,7 +202,8 @@ fn beside<P>(
         between <= NEXT || (round && pieces - between <= NEXT)
     };
     let alone = beside.iter().all(|&(j, ..)| next(j));
-    Some((alone && off <= ON_IT).then_some(i as f64 + part))
+    // on it: within a tenth of a chord
+    Some((alone && off <= 0.1).then_some(i as f64 + part))
 }
 
 /// A part of a curve: where it is along the curve, and its points.

@@ -100,8 +100,6 @@ impl Metric {
     /// Two modes may meet there by chance, as the lengths of cylinders are equal for an arm bent to the one and to the
     /// other side: from there they go on in different ways.
     pub fn meets(&self, a: TangentSolutionRef, b: TangentSolutionRef) -> bool {
-        /// Relative difference of the motions of one mode, from conditioning.
-        const ALIKE: f64 = 1e-4;
         if !self.same(a.at, b.at) {
             return false;
         }
@@ -114,7 +112,8 @@ impl Metric {
             change += seen * (a - b) * (a - b);
             size += seen * f64::max(a * a, b * b);
         }
-        change <= ALIKE * ALIKE * size
+        // motions of one mode differ by 1e-4, from conditioning
+        change <= 1e-8 * size
     }
 
     /// Distance of two configurations in all unknowns, in rad and characteristic lengths.
@@ -216,8 +215,6 @@ impl Metric {
         length: f64,
         storage: &mut Vec<f64>,
     ) -> bool {
-        const CHANGE: f64 = 0.6;
-        const SWING: f64 = 1.0;
         let unknowns = self.free.unknowns();
         storage.clear();
         storage.resize(unknowns, 0.0);
@@ -234,9 +231,11 @@ impl Metric {
                 from += seen * a * a;
                 to += seen * b * b;
             }
-            change <= CHANGE * CHANGE * f64::max(from, to)
+            // motions change by less than 0.6 of the longer
+            change <= 0.36 * f64::max(from, to)
         });
-        let most = SWING / length.abs();
+        // no unknown goes by 1 rad or characteristic length off the line
+        let most = 1.0 / length.abs();
         same_way && swings.iter().all(|swing| *swing <= most * most)
     }
 }

@@ -44,10 +44,6 @@ impl PacedStep {
     /// proportion to x* − x. Towards a place where a leg merely turns fast it falls with the square
     /// instead, and the straight line through two points leads to another place each time.
     fn on(&mut self, at: TangentSolution, slowness: f64) -> bool {
-        /// Two estimates of the fold may differ by this fraction of the distance to it.
-        const AGREED: f64 = 0.05;
-        /// The next step as a part of the way to the fold.
-        const NEXT: f64 = 0.6;
         let before = std::mem::replace(&mut self.fold, f64::INFINITY);
         let gone = self.step;
         self.x += gone;
@@ -57,9 +53,11 @@ impl PacedStep {
         (self.at, self.slowness) = (at, slowness);
         let (left, rest) = (self.fold - self.x, self.rest());
         let ahead = left.is_finite() && left.abs() < 1.5 * rest.abs();
-        let next = if ahead { NEXT * left } else { 2.0 * gone };
+        // the greater part of the way to the fold
+        let next = if ahead { 0.6 * left } else { 2.0 * gone };
         self.step = if next.abs() < rest.abs() { next } else { rest };
-        let agreed = (self.fold - before).abs() < AGREED * left.abs();
+        // the estimates of the fold from this step and the one before
+        let agreed = (self.fold - before).abs() < 0.05 * left.abs();
         ahead && agreed && 1.1 * left.abs() < rest.abs()
     }
 }
@@ -73,8 +71,6 @@ impl Flood<'_> {
         tasks: &[GridTask],
     ) -> Vec<EdgeEnd> {
         const ROUNDS: usize = 30;
-        /// The shortest step as a part of an edge.
-        const SHORTEST: f64 = 1.0 / 256.0;
         let slowness = |at: TangentSolutionRef, axis: usize| {
             let (motion, _) = self.metric.motion(at, axis, 1.0);
             norm(motion).powi(-2)
@@ -122,7 +118,7 @@ impl Flood<'_> {
                     None => {
                         way.step *= 0.5;
                         let edge = self.grid.spacing(way.axis).abs();
-                        if way.step.abs() > SHORTEST * edge {
+                        if way.step.abs() > 1.0 / 256.0 * edge {
                             left.push((i, way));
                         }
                     }

@@ -3,6 +3,7 @@
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
+use crate::number::tolerance::ROUNDING;
 use crate::system::{
     Coordinate, Driven, HeldPlatform, Lock, Question, System, actuated, coordinate_outputs,
     with_coordinates,
@@ -85,7 +86,7 @@ impl<'m> MapProblem<'m> {
     /// The value of a joint in the turn of home and within limits; half a turn is positive.
     pub fn by_home(&self, joint: usize, value: f64) -> f64 {
         let home = self.mechanism.home_turn(joint);
-        self.mechanism.turned_near(joint, value, home + 1e-9)
+        self.mechanism.turned_near(joint, value, home + ROUNDING)
     }
 
     pub fn allows(&self, joints: &[f64]) -> bool {

@@ -6,6 +6,7 @@ use super::condition::condition;
 use super::map_problem::MapProblem;
 use crate::linear::{Factorable, dot};
 use crate::mechanism::{Configuration, Role};
+use crate::number::tolerance::{SOLVED, STILL};
 use crate::system::{Coordinate, Driving, Held, System, SystemWork, Unknown};
 
 /// The motions for unit rates of the held coordinates one by one, the columns of N, dimensionless:
@@ -163,15 +164,18 @@ impl Rates {
         // a NaN is not regular
         let unit = |(k, x): (usize, &f64)| {
             let unit = f64::from(u8::from(k % n == k / n));
-            (x - unit).abs() < OFF
+            (x - unit).abs() < STILL
         };
         let opening = found
             .opening
             .chunks_exact((found.opening.len() / n.max(1)).max(1));
         let mut opening = opening.zip(motions.chunks_exact(unknowns.max(1)));
-        let closed = opening.all(|(rows, motion)| largest(rows) < OFF * (1.0 + largest(motion)));
+        let closed = opening.all(|(rows, motion)| largest(rows) < STILL * (1.0 + largest(motion)));
+        // faster motions are those of a point √ε beside a fold, where ε is what solving leaves of the equations: it is found
+        // from some starts and not from others, and a node on the very boundary of a map would depend on the seed
+        let fastest = 0.1 / SOLVED.sqrt();
         let indicators = Indicators {
-            regular: closed && back.iter().enumerate().all(unit) && largest(motions) < FASTEST,
+            regular: closed && back.iter().enumerate().all(unit) && largest(motions) < fastest,
             direct: of(of_inputs, lost, direct),
             inverse: of(of_outputs, lost_outputs, inverse),
             condition: condition_number,
@@ -210,14 +214,6 @@ impl Rates {
         }
     }
 }
-
-/// The largest rate at a regular solution, 1/(10 √ε), where ε = 1e-12 is what solving leaves of the equations. Faster ones
-/// are those of a point √ε beside a fold, which solving finds from some starts and not from others: a node on the very
-/// boundary of a map would depend on the seed.
-const FASTEST: f64 = 1e5;
-
-/// Largest error of unit rates, and of rates at which closed rows open, relative to the motion.
-const OFF: f64 = 1e-6;
 
 /// The largest of several numbers without their signs; a NaN is larger than any.
 fn largest(of: &[f64]) -> f64 {

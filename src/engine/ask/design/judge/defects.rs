@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::{Judge, Observed, SLACK};
+use super::{Judge, Observed};
 use crate::analysis::design::{Defect, DesignCourse};
 use crate::mechanism::{Configuration, Mechanism};
+use crate::number::tolerance::ROUNDING;
 
 impl Judge<'_> {
     /// Positions beyond limits of joints.
@@ -85,7 +86,7 @@ impl Judge<'_> {
         for (bound, seen) in self.bounds.iter().zip(seen) {
             let (limit, at_least) = (bound.bound, bound.at_least);
             let worst = bound.figure.of(seen);
-            let slack = SLACK * (1.0 + limit.abs());
+            let slack = ROUNDING * (1.0 + limit.abs());
             let kept = worst.is_some_and(|worst| match at_least {
                 true => worst >= limit - slack,
                 false => worst <= limit + slack,

@@ -14,9 +14,6 @@ use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::tolerance::{SAME, SOLVED};
 use crate::system::{self, Bundle};
 
-/// Joints that differ by more are those of another assembly.
-const APART: f64 = SAME;
-
 impl Judge<'_> {
     /// The ranges through which inputs go.
     pub(super) fn ranges(
@@ -344,7 +341,7 @@ fn apart(mechanism: &Mechanism, a: &[f64], b: &[f64]) -> bool {
         } else {
             *y
         };
-        (x - y).abs() > APART
+        (x - y).abs() > SAME
     })
 }
 

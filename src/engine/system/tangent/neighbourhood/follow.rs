@@ -4,9 +4,13 @@ use super::{Neighbourhood, Tangent};
 use crate::linear::{Svd, add, dot, norm};
 use crate::mechanism::Configuration;
 use crate::number::real;
-use crate::number::tolerance::{NOT_PRINTED, SOLVED};
+use crate::number::tolerance::{DIFFERENCE, NOT_PRINTED, SOLVED, SUMMED};
 use crate::solve::Equations;
 use crate::system::equations::settle;
+
+/// Length of a finite step along a motion, in rad and characteristic lengths: one that is infinitesimal only, to second order,
+/// leaves a gap of about its square.
+pub const FINITE_STEP: f64 = 0.05;
 
 /// A finite step along an infinitesimal motion.
 #[derive(Clone, Debug)]
@@ -31,10 +35,8 @@ impl Neighbourhood<'_> {
         distance: f64,
     ) -> Option<FiniteStep> {
         const STEPS: usize = 60;
-        /// Rounding of a dimensionless residual.
-        const CLOSED: f64 = 4e-15;
-        // a residual that is rounding asks for corrections of this length
-        let noise = (CLOSED / from.decomposition.smallest()).max(1e-12);
+        // a residual that is rounding, 4e-15, asks for corrections of this length
+        let noise = (4e-15 / from.decomposition.smallest()).max(1e-12);
         if noise > distance {
             return None;
         }
@@ -70,18 +72,14 @@ impl Neighbourhood<'_> {
         direction: &[f64],
         distance: f64,
     ) -> Result<FiniteStep, Option<f64>> {
-        /// A gap of a free motion: rounding. One infinitesimal to order five leaves 0.05⁶ = 1.6e-8 times its curvature.
-        const FREE: f64 = 1e-11;
-        /// Gap of a free motion in a step so short that a freedom of second order would leave no more than [`FREE`].
-        const FREE_IF_SHORT: f64 = 1e-13;
-        const SHORT: f64 = 1e-3;
-        /// A second-order freedom leaves κℓ²/2 of a dimensionless equation with curvature κ: beside a step shorter than
-        /// this, √(`FREE_IF_SHORT`/κ) with κ = 1e-3, it cannot be told from a free one.
-        const SHORTEST: f64 = 1e-5;
         let mut length = distance;
-        while length > SHORTEST {
+        // a second-order freedom leaves κℓ²/2 of a dimensionless equation with curvature κ: in a step shorter than √(1e-13/κ)
+        // with κ = 1e-3 it cannot be told from a free one
+        while length > 1e-5 {
             if let Some(step) = self.follow(from, direction, length) {
-                let free = if length < SHORT { FREE_IF_SHORT } else { FREE };
+                // rounding: a freedom of order five leaves 0.05⁶ = 1.6e-8 times its curvature; a short step would leave
+                // no more of one of second order
+                let free = if length < 1e-3 { SUMMED } else { 1e-11 };
                 return match step.gap <= free {
                     true => Ok(step),
                     false => Err(Some(step.gap)),
@@ -100,9 +98,8 @@ impl Neighbourhood<'_> {
         directions: &[Vec<f64>],
         distance: f64,
     ) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
-        /// Half the step of the central differences as part of the distance, and what they leave of zero.
+        /// Half the step of the central differences as part of the distance.
         const PART: f64 = 1e-3;
-        const ZERO: f64 = 1e-4;
         let motions = &from.motions;
         let dependencies = from.decomposition.left_null_space();
         let mut left_at = |place: &[f64], part: f64, motion: &[f64]| {
@@ -121,7 +118,8 @@ impl Neighbourhood<'_> {
         }
         let svd = Svd::of(directions.len(), motions.len(), &slopes);
         let next = svd.values.get(1);
-        if next.is_some_and(|next| *next > ZERO * svd.values[0]) {
+        // what differences leave of zero
+        if next.is_some_and(|next| *next > 1e-4 * svd.values[0]) {
             return None;
         }
         let mut along = svd.right.iter().map(|weights| {
@@ -135,8 +133,7 @@ impl Neighbourhood<'_> {
 
     /// True if all motions are finite, tried along one motion that mixes them; false for a shaky structure.
     pub fn is_mobile(&mut self, at: &Tangent) -> bool {
-        const STEP: f64 = 0.05;
-        mixture(&at.motions).is_none_or(|mixed| self.free_step(at, &mixed, STEP).is_ok())
+        mixture(&at.motions).is_none_or(|mixed| self.free_step(at, &mixed, FINITE_STEP).is_ok())
     }
 
     /// About how far the nearest singular configuration is along the motions, in rad and
@@ -145,8 +142,6 @@ impl Neighbourhood<'_> {
     /// The smallest singular value σ = uᵀ J v that counts changes by gᵢ = uᵀ (∂J/∂mᵢ) v along a
     /// motion mᵢ, so that to first order it vanishes at the distance σ/‖g‖.
     pub fn singular_within(&mut self, from: &Tangent, within: f64) -> Option<f64> {
-        /// Step of the central differences.
-        const STEP: f64 = 1e-4;
         let (u, v) = from.decomposition.weakest()?;
         let smallest = from.decomposition.smallest();
         // along a unit motion J changes by about its own size at most
@@ -156,7 +151,7 @@ impl Neighbourhood<'_> {
         let mut squares = 0.0;
         for motion in &from.motions {
             let mut slope = 0.0;
-            for step in [STEP, -STEP] {
+            for step in [DIFFERENCE, -DIFFERENCE] {
                 let ahead: Vec<f64> = motion.iter().map(|x| x * step).collect();
                 let at = self.system.displaced(&from.at, &ahead);
                 self.system.linearise(&at, &mut self.work);
@@ -176,17 +171,17 @@ impl Neighbourhood<'_> {
         dependencies: &[Vec<f64>],
         motion: &[f64],
     ) -> Vec<f64> {
-        /// Balances the fourth order against rounding.
-        const STEP: f64 = 1e-3;
+        // balances the fourth order against rounding
+        let length = 1e-3;
         let mut sums = vec![0.0; dependencies.len()];
-        for step in [STEP, -STEP] {
+        for step in [length, -length] {
             let step: Vec<f64> = motion.iter().map(|x| x * step).collect();
             let at = self.system.displaced(&from.at, &step);
             self.system.residual(&at, &mut self.work);
             let residual = self.system.residual_of(&self.work);
             (sums.iter_mut().zip(dependencies)).for_each(|(sum, w)| *sum += dot(w, residual));
         }
-        sums.iter().map(|sum| sum / (STEP * STEP)).collect()
+        sums.iter().map(|sum| sum / (length * length)).collect()
     }
 
     /// The assembled configuration nearest to a point, in rad and characteristic lengths, downhill from an assembled

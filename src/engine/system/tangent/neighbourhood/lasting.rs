@@ -61,7 +61,8 @@ impl Tangent {
             let shares = self.idle.iter().map(|idle| dot(idle, direction));
             shares.collect()
         });
-        let kept = orthonormal(&weights.collect::<Vec<Vec<f64>>>(), DISTINCT);
+        // smaller parts of a unit vector do not distinguish directions
+        let kept = orthonormal(&weights.collect::<Vec<Vec<f64>>>(), 1e-3);
         let combined = |weights: &Vec<f64>| -> Vec<f64> {
             let along = |i: usize| self.idle.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
             (0..self.columns()).map(along).collect()
@@ -81,6 +82,3 @@ impl Tangent {
         }
     }
 }
-
-/// Parts of a unit vector smaller than this do not distinguish directions.
-const DISTINCT: f64 = 1e-3;

@@ -4,7 +4,7 @@
 //! line and to the second axis z₂. But z₂ may stand anywhere about the line: the configurations with other angles make a
 //! component of their own, along which no body moves, and which the motions of the bodies leave where z₂ is as they need it.
 
-use super::follow::mixture;
+use super::follow::{FINITE_STEP, mixture};
 use super::{Neighbourhood, Tangent};
 use crate::linear::Decomposition;
 use crate::mechanism::{Configuration, LockedBall};
@@ -16,8 +16,6 @@ impl Neighbourhood<'_> {
     /// The motions beside the bodies' poses of a configuration with balls in gimbal lock, out of it; `None` if no ball is locked
     /// whose bodies could move otherwise.
     pub fn unlocked(&mut self, at: &Configuration<f64>) -> Option<Tangent> {
-        /// Step along the motion of the bodies.
-        const STEP: f64 = 0.05;
         let balls = self.mechanism.locked_balls(at).into_iter();
         let balls: Vec<(usize, LockedBall)> = balls
             .filter_map(|ball| {
@@ -51,7 +49,7 @@ impl Neighbourhood<'_> {
             return None;
         }
         let mixed = mixture(&there.motions)?;
-        let step: Vec<f64> = mixed.iter().map(|x| x * STEP).collect();
+        let step: Vec<f64> = mixed.iter().map(|x| x * FINITE_STEP).collect();
         let start = self.system.displaced(&there.at, &step);
         let at = self.solve(&Newton::default(), start)?;
         Some(self.tangent(at))

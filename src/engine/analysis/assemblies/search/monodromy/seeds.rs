@@ -46,7 +46,6 @@ impl MemberSearch<'_> {
     /// One that seems multiple counts if it is none of the known: far out rounding makes simple ones look so, for complex
     /// rotations grow with every joint.
     fn seeds(&mut self, node: usize) -> Vec<Vec<C>> {
-        const BLURRED: f64 = 1e-3;
         let (first, seed) = (self.found.search.seeds, self.settings.seed);
         let at = &self.nodes[node];
         let reach = at.reach;
@@ -63,7 +62,8 @@ impl MemberSearch<'_> {
                 Seed::Nothing => {}
                 Seed::Multiple(x) => {
                     let near = |y: &Vec<C>| {
-                        let limit = BLURRED * (1.0 + size(y));
+                        // to three digits, where rounding blurs them
+                        let limit = 1e-3 * (1.0 + size(y));
                         self.family.coordinates.within(limit, &x, y)
                     };
                     let other = self.is_own(node) && !at.shown.iter().any(near);
