@@ -59,7 +59,7 @@ impl Assignment {
 }
 
 /// Refuses an option that gives two values to one name.
-pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
+pub fn refuse_repeats(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
     for (i, second) in given.iter().enumerate() {
         if let Some(first) = given[..i].iter().find(|first| first.name == second.name) {
             let [one, other] =
@@ -98,7 +98,7 @@ impl Source {
         let path = called(&self.file);
         let (text, mut description) =
             Mechanism::read_text(&path, text(&self.file, self.max_bytes)?)?;
-        once("--set", &self.set)?;
+        refuse_repeats("--set", &self.set)?;
         if let Some(tolerance) = &self.tolerance {
             description = description.with_tolerance(tolerance).ok_or_else(|| {
                 let title = format!("`--tolerance {tolerance}` is no length, such as `0.01 mm`");

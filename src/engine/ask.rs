@@ -207,7 +207,7 @@ impl Question {
     }
 
     /// The demands of a role, which names no two of them.
-    fn once(&self, role: Role) -> Result<Vec<(Item, &Demand)>, AskError> {
+    fn distinct(&self, role: Role) -> Result<Vec<(Item, &Demand)>, AskError> {
         let all: Vec<_> = self.of(role).collect();
         let mut known = FxHashMap::default();
         for (item, demand) in &all {

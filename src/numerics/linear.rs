@@ -27,8 +27,7 @@ mod svd;
 mod vectors;
 
 pub use crate::number::tolerance::{
-    BESIDE_A_CROSSING, CANCELLED, CURVED, ILL_CONDITIONED, INDEPENDENT, RANK_TOLERANCE,
-    SINGULAR_PLACE,
+    CANCELLED, CURVED, INDEPENDENT, RANK_TOLERANCE, SINGULAR_PLACE, SOLVED, SUSPECT,
 };
 pub use aligned::axis_aligned;
 pub use block::{ColumnBlock, DenseOnly, Filled, NoFactors, SparseStep};

@@ -65,10 +65,10 @@ pub fn assemble(
         }
         Err(error) => return Err(error),
     };
-    let mut found = search.go_on(first, settings.restarts, settings.seed, watch);
+    let mut found = search.restart(first, settings.restarts, settings.seed, watch);
     let mut local_minimum = false;
     if !found.assembles() && !watch.is_stopped() {
-        local_minimum = walk_on(&search, &settings.newton, &mut found.attempt);
+        local_minimum = to_closest_approach(&search, &settings.newton, &mut found.attempt);
     }
     if left.is_some() && found.assembles() {
         found.attempt.at = nearest(question, &search, found.attempt.at);
@@ -138,7 +138,7 @@ fn agreeing(
 
 /// Continues from the end of Newton's method to the closest approach, which may be assembled after all; true if it is a
 /// local minimum of the gaps.
-fn walk_on(search: &Search, newton: &Newton, attempt: &mut Attempt) -> bool {
+fn to_closest_approach(search: &Search, newton: &Newton, attempt: &mut Attempt) -> bool {
     let system = search.system();
     let (at, local_minimum) = approach(system, &attempt.at);
     attempt.report.size = system.residual(&at, &mut system.work());
@@ -296,7 +296,7 @@ impl Reporter<'_> {
             false => 0,
         };
         let outcome = if freedoms.motions.len() > idle {
-            singular::blame(self.mechanism, self.search.held(), &attempt.at, freedoms)
+            singular::causes(self.mechanism, self.search.held(), &attempt.at, freedoms)
         } else {
             self.converged(&attempt.at)
         };

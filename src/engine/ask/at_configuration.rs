@@ -109,7 +109,7 @@ impl Question {
     ) -> Result<Vec<(Item, Speed)>, AskError> {
         let mechanism = &**self.mechanism();
         let mut speeds = Vec::new();
-        for (item, demand) in self.once(Role::Rate)? {
+        for (item, demand) in self.distinct(Role::Rate)? {
             let named = question.coordinates(&demand.name);
             let Some(&coordinate) = (named.as_deref().ok())
                 .and_then(|of| <&[Coordinate; 1]>::try_from(of).ok())
@@ -309,11 +309,13 @@ impl Question {
         but: impl Fn(Item) -> bool,
     ) -> Result<Drive, AskError> {
         let mut drive = Drive::still(question);
-        for (item, demand) in (self.once(Role::Rate)?.into_iter()).filter(|(item, _)| !but(*item)) {
+        for (item, demand) in
+            (self.distinct(Role::Rate)?.into_iter()).filter(|(item, _)| !but(*item))
+        {
             let driven = drive.rate(question, &demand.name, demand.value(0));
             drive = driven.map_err(item.wrong(AskError::Drive))?;
         }
-        for (item, demand) in self.once(Role::Acceleration)? {
+        for (item, demand) in self.distinct(Role::Acceleration)? {
             let driven = drive.acceleration(question, &demand.name, demand.value(0));
             drive = driven.map_err(item.wrong(AskError::Drive))?;
         }

@@ -14,7 +14,7 @@ impl Question {
     pub(super) fn driven(&self, refuse: fn(f64, f64) -> bool) -> Result<Vec<Driven>, AskError> {
         let question = system::Question::new(self.mechanism());
         let mut ranges = Vec::new();
-        for (item, input) in self.once(Role::Input)? {
+        for (item, input) in self.distinct(Role::Input)? {
             let name = &input.name;
             // a wrong name is the first thing to say
             (question.value(name, "home")).map_err(item.wrong(AskError::Named))?;

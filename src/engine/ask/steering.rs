@@ -141,7 +141,7 @@ impl Steering {
         let kept = self.driven.iter().filter(|of| !released.contains(of));
         let kept: Vec<Coordinate> = kept.copied().collect();
         let question = system::Question::locking(&self.mechanism, &kept, &self.at);
-        Still::beside(&self.still, question.held())
+        Still::held_with(&self.still, question.held())
     }
 
     /// The coordinates that can be moved: those that are held.

@@ -151,7 +151,7 @@ impl Study {
         let mechanism = question.mechanism().clone();
         let plain = system::Question::new(&mechanism);
         let (mut varied, mut ranges) = (Vec::new(), Vec::new());
-        for (item, demand) in question.once(Role::Vary)? {
+        for (item, demand) in question.distinct(Role::Vary)? {
             let (name, from, to) = (&demand.name, demand.value(0), demand.value(1));
             if let Some((index, parameter)) = parameter(&mechanism, name)? {
                 let number = |value| number(&mechanism, index, value);
@@ -167,7 +167,7 @@ impl Study {
             let name = of.name(&mechanism);
             varied.push(StudyVariable::coordinate(&name, of, &mechanism));
         }
-        for (_, demand) in question.once(Role::Deviate)? {
+        for (_, demand) in question.distinct(Role::Deviate)? {
             let (name, deviation) = (&demand.name, &demand.value(0));
             if varied.iter().any(|of| of.name == *name) {
                 return Err(StudyError::Twice(name.clone()).into());

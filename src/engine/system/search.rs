@@ -90,7 +90,7 @@ impl<'a> Search<'a> {
     /// outside limits, starts from the guess, then from seeded random starts within the limits.
     pub fn run(&mut self, restarts: usize, seed: u64, watch: &Watch) -> Searched {
         let first = self.first();
-        self.go_on(first, restarts, seed, watch)
+        self.restart(first, restarts, seed, watch)
     }
 
     /// The attempt without random starts.
@@ -118,7 +118,13 @@ impl<'a> Search<'a> {
     }
 
     /// The search after the [`first`](Self::first) attempt.
-    pub fn go_on(&mut self, first: Attempt, restarts: usize, seed: u64, watch: &Watch) -> Searched {
+    pub fn restart(
+        &mut self,
+        first: Attempt,
+        restarts: usize,
+        seed: u64,
+        watch: &Watch,
+    ) -> Searched {
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let mut best = first;
         let most = if self.settles(&best) { 0 } else { restarts };

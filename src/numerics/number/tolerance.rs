@@ -12,11 +12,9 @@ pub const CANCELLED: f64 = 1e-14;
 /// Rounding of a longer sum, relative to its terms.
 pub const SUMMED: f64 = 1e-13;
 
-/// The largest row of solved equations, and the rounding of singular values and of sums of squares.
+/// The largest row of solved equations, and the rounding of singular values and of sums of squares: a condition number beyond
+/// the inverse of this has no digit.
 pub const SOLVED: f64 = 1e-12;
-
-/// A condition number beyond the inverse of this has no digit in double precision.
-pub const ILL_CONDITIONED: f64 = 1e-12;
 
 /// Numbers of files and answers, in SI units or relative to the largest, below this are the rounding of a zero.
 pub const WRITTEN_ZERO: f64 = 1e-12;
@@ -52,13 +50,12 @@ pub const INDEPENDENT: f64 = 1e-6;
 /// A curvature counts as negative from this part of the largest on: it is taken by differences.
 pub const CURVED: f64 = 1e-6;
 
-/// The error of solutions at which equations only touch zero: half of the digits are known. Singular values as small beside the
-/// largest may vanish there.
+/// The error of solutions at which equations only touch zero: half of the digits are known.
 pub const DOUBLE: f64 = 1e-5;
 
-/// Relative singular value below which, near a crossing, rounding no longer lets the tangent of a curve distinguish
-/// branches.
-pub const BESIDE_A_CROSSING: f64 = 1e-5;
+/// Singular values as small, relative to the largest, may vanish at a solution near by: at one that is known to half its
+/// digits, or at a crossing of curves, whose branches the tangent does not distinguish there.
+pub const SUSPECT: f64 = 1e-5;
 
 /// The step of central differences of first derivatives, in rad and characteristic lengths: their error, of second order,
 /// is about as large as that of rounding.

@@ -1,9 +1,7 @@
 //! Points where branches of a curve of solutions cross: there the Jacobian loses rank.
 
 use super::continuation::{Continuation, CurvePoint, SolutionCurve, back};
-use crate::linear::{
-    BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, dot, norm, product,
-};
+use crate::linear::{Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, SUSPECT, dot, norm, product};
 use crate::number::tolerance::DIFFERENCE;
 use crate::number::{real, sorting::sort_by};
 
@@ -198,7 +196,7 @@ fn freedoms<C: SolutionCurve>(curve: &mut C, at: &C::Point) -> usize {
     let (residual, jacobian) = curve.linearise(at);
     let here = Decomposition::of(residual.len(), unknowns, &jacobian);
     let values = here.singular_values();
-    let least = BESIDE_A_CROSSING * values.first().copied().unwrap_or(0.0);
+    let least = SUSPECT * values.first().copied().unwrap_or(0.0);
     unknowns - values.iter().take_while(|value| **value > least).count()
 }
 
@@ -248,7 +246,7 @@ fn forms<C: SolutionCurve>(
 /// Isolated unit vectors on which all forms vanish, up to their sign: Newton's method from all over the sphere.
 fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
     let largest = forms.iter().map(|form| norm(form)).fold(0.0, f64::max);
-    let counts = |form: &&Vec<f64>| norm(form) > RANK_TOLERANCE.max(BESIDE_A_CROSSING * largest);
+    let counts = |form: &&Vec<f64>| norm(form) > RANK_TOLERANCE.max(SUSPECT * largest);
     let forms: Vec<&Vec<f64>> = forms.iter().filter(counts).collect();
     if forms.is_empty() || n < 2 {
         return Vec::new();

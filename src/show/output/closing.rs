@@ -65,11 +65,13 @@ pub(super) fn after_moving(moved: Option<&Moved>, answer: String) -> String {
 
 /// Gap of the given pose, and distance of guesses from an assembly beside them.
 pub(super) fn notes(pose: &GivenPose) -> impl Iterator<Item = String> {
-    given(pose).into_iter().chain(beside(pose.moved.as_ref()))
+    given(pose)
+        .into_iter()
+        .chain(distance_moved(pose.moved.as_ref()))
 }
 
 /// Distance of the given pose from an assembly near it.
-pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
+pub(super) fn distance_moved(moved: Option<&Moved>) -> Option<String> {
     let moved = moved.filter(|moved| moved.is_small())?;
     let way = way(moved);
     Some(format!(

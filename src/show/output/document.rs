@@ -375,7 +375,7 @@ impl<T: Copy> TableOf<T> {
     }
 
     /// Without columns that come again: a coordinate that moves or bounds a box is also a joint or part of a pose.
-    pub fn once(mut self) -> Self {
+    pub fn without_repeats(mut self) -> Self {
         let Table { columns, rows, .. } = &mut self.table;
         let heads: Vec<String> = columns.iter().map(Column::header).collect();
         for i in (0..heads.len())

@@ -35,7 +35,7 @@ impl Report for MotionsReport {
                 let answer = closing::after_moving(moved, mode(one) + &sentence(&one.sweep));
                 let document = Document::new(&self.mechanism, answer);
                 let document = document.interrupted(interrupted, "");
-                let document = document.notes(closing::beside(moved));
+                let document = document.notes(closing::distance_moved(moved));
                 let document = document.notes(remarks(one).concat()).sections(parts(one));
                 document.method(words::work(&one.sweep))
             }

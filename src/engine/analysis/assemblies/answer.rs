@@ -143,7 +143,7 @@ impl TargetProblem<'_> {
                 // a set that attracts no start: from the ends themselves
                 let points = sets
                     .iter()
-                    .filter_map(|g| self.beside(&g.x, homotopy))
+                    .filter_map(|g| self.real_near(&g.x, homotopy))
                     .collect();
                 self.add(&mut gathered, points, homotopy, (&fit, false));
             }

@@ -13,7 +13,7 @@ use crate::system::{Freedoms, Held, HeldPlatform, System, Unknown};
 /// With J over the free and H over the held unknowns, w with wᵀJ = 0 and wᵀH ≠ 0 is a combination
 /// of closure rows that only the inputs enter: it belongs to a closure, and the inputs in it are
 /// locked. Combinations with wᵀH = 0 as well are the redundancy of an overconstrained mechanism.
-pub(super) fn blame(
+pub(super) fn causes(
     mechanism: &Mechanism,
     held: &Held<f64>,
     at: &Configuration<f64>,

@@ -8,7 +8,7 @@ use super::coupler_curve::{FourBar, Z, classes};
 use super::exact::{Exact, Triples};
 use super::pinned::PinnedFourBar;
 use super::report::Cognate;
-use super::search::{EXACT, FoundEnd, SearchedEnds, Task};
+use super::search::{FoundEnd, MET, SearchedEnds, Task};
 use crate::mechanism::Configuration;
 use crate::number::sorting::sort_by;
 use crate::number::tolerance::SAME;
@@ -118,7 +118,7 @@ impl Task<'_> {
     fn placed(&self, path: &PinnedFourBar, single: &Bundle, of: &FourBar) -> Option<Bundled> {
         /// Random numbers from which the pins are sought at most.
         const TRIES: u64 = 60;
-        let zero = EXACT * self.size * self.size;
+        let zero = MET * self.size * self.size;
         let points = &path.points;
         let pins = of
             .pivots

@@ -1,6 +1,6 @@
 //! Designs that meet their targets, improved where the targets leave numbers open.
 
-use super::search::{EXACT, FoundEnd, SearchedEnds, Task};
+use super::search::{FoundEnd, MET, SearchedEnds, Task};
 use crate::linear::add;
 use crate::number::sorting::sort_by;
 use crate::number::tolerance::SAME;
@@ -52,7 +52,7 @@ impl Task<'_> {
         /// Ends of which the costs are compared at most.
         const JUDGED: usize = 60;
         let least = all.found.first().map_or(0.0, |of| of.squares);
-        let zero = EXACT * self.size * self.size;
+        let zero = MET * self.size * self.size;
         let nearest = all.found.iter().take(JUDGED);
         let nearest = nearest.filter(|of| of.squares <= least * (1.0 + SAME) + zero);
         nearest.filter(|of| !self.open(of).is_empty()).collect()
@@ -105,7 +105,7 @@ impl Task<'_> {
                 }
                 let (base, before) = best.clone();
                 simplex(open.len(), *size, watch, |along| {
-                    let found = self.beside(&bundle, &base, &open, along)?;
+                    let found = self.displaced(&bundle, &base, &open, along)?;
                     let costs = cost(&found)?;
                     if costs < best.1 {
                         best = (found, costs);
@@ -128,7 +128,7 @@ impl Task<'_> {
     }
 
     /// The design some way along open directions of the numbers that meets the targets as well.
-    fn beside(
+    fn displaced(
         &self,
         bundle: &Bundle,
         from: &FoundEnd,
@@ -149,8 +149,8 @@ impl Task<'_> {
             configurations: from.at.configurations.clone(),
         };
         let end = method.solve(bundle, start);
-        let zero = EXACT * self.size * self.size;
-        let meets = end.misfit.squares <= from.squares + zero && end.misfit.equations <= EXACT;
+        let zero = MET * self.size * self.size;
+        let meets = end.misfit.squares <= from.squares + zero && end.misfit.equations <= MET;
         meets.then(|| FoundEnd {
             at: end.point,
             squares: end.misfit.squares,

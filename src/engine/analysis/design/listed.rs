@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use super::search::{EXACT, FULLY, FoundEnd, SearchedEnds, Task};
+use super::search::{FULLY, FoundEnd, MET, SearchedEnds, Task};
 use crate::number::sorting::sort_by;
 use crate::solve::{Stage, Watch, each};
 use crate::system::Bundle;
@@ -72,7 +72,7 @@ impl Task<'_> {
             combinations: sizes.product(),
             exhausted: false,
         };
-        let zero = EXACT * self.size * self.size;
+        let zero = MET * self.size * self.size;
         let mut ends: Vec<FoundEnd> = Vec::new();
         while listed.completed < COMPLETED && listed.fits < FITS {
             // of fits that meet all targets the one with most numbers kept

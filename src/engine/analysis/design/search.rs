@@ -74,7 +74,7 @@ pub struct SearchedEnds {
 }
 
 /// A sum of squares below this part of that of the targets' size is rounding: the targets are met.
-pub(super) const EXACT: f64 = 1e-20;
+pub(super) const MET: f64 = 1e-20;
 
 /// Steps at most, and the tolerance, of fits that are rough, and of others.
 const ROUGHLY: (u64, f64) = (60, 1e-6);
@@ -139,7 +139,7 @@ impl Task<'_> {
                     break;
                 }
             }
-            let zero = EXACT * self.size * self.size;
+            let zero = MET * self.size * self.size;
             let again = best.map(|best| {
                 let like = all
                     .found

@@ -261,7 +261,7 @@ impl<'m> Course<'m> {
     }
 
     /// The part of a stretch on either side of a place of a piece where the best value near it may be.
-    pub fn beside(&self, of: &Sought, piece: usize) -> Option<f64> {
+    pub fn margin(&self, of: &Sought, piece: usize) -> Option<f64> {
         if self.is_continued(of, piece) {
             return None;
         }

@@ -96,7 +96,7 @@ fn extremum(
             value,
             stretch,
             part,
-            beside: course.beside(sought, piece),
+            beside: course.margin(sought, piece),
         }
     });
     let mut known: Vec<(usize, f64)> = Vec::new();

@@ -20,8 +20,8 @@ pub(super) struct RoundedDirections<'a> {
     open: f64,
 }
 
-/// Below this nothing is told from rounding of doubles.
-const EXACT: f64 = 2e-14;
+/// The rounding that arithmetic in double precision leaves in closures and singular values.
+const ARITHMETIC: f64 = 2e-14;
 
 /// One step of a walk, in rad or characteristic lengths.
 const STRIDE: f64 = 0.2;
@@ -117,7 +117,7 @@ impl<'a> RoundedDirections<'a> {
             open(&system.displaced(&home, &step))
         };
         let most = open(&home)?.max(away(1.0)?).max(away(-1.0)?);
-        let cut = (SLACK * most).clamp(EXACT, 1e-2);
+        let cut = (SLACK * most).clamp(ARITHMETIC, 1e-2);
         let counts = |values: &[f64]| {
             let largest = values.first().copied().unwrap_or(0.0);
             values
@@ -132,12 +132,12 @@ impl<'a> RoundedDirections<'a> {
         let strictly = svd
             .values
             .iter()
-            .filter(|value| **value > EXACT * largest)
+            .filter(|value| **value > ARITHMETIC * largest)
             .count();
-        let exact = strictly == rank && left <= EXACT;
+        let exact = strictly == rank && left <= ARITHMETIC;
         // with values that a drawing means nothing may be left free: a structure, however exactly it closes
         let stands = may_be_exact && rank == unknowns;
-        if exact && !may_be_exact || stands || left > SLACK * most + EXACT || rank == 0 {
+        if exact && !may_be_exact || stands || left > SLACK * most + ARITHMETIC || rank == 0 {
             return None;
         }
         Some(RoundedDirections {
@@ -147,7 +147,7 @@ impl<'a> RoundedDirections<'a> {
             free: svd.right[rank..].to_vec(),
             rank,
             cut: cut.max(1e-8),
-            open: SLACK * most + EXACT,
+            open: SLACK * most + ARITHMETIC,
         })
     }
 

@@ -19,7 +19,7 @@ use crate::system::{Driven, Held, JointSpace, Unfit};
 use moving::{MovingInputs, joint};
 
 /// Half the side of the box that holds a configuration's exact place, in rad or characteristic lengths.
-const EXACT: f64 = 1e-8;
+const HALF_SIDE: f64 = 1e-8;
 
 /// Largest number of halvings of the way between two rows.
 const HALVINGS: usize = 24;
@@ -219,7 +219,7 @@ impl ExactPlace {
         let there = MovingInputs::new(space, driven, &inputs, &inputs);
         let sides: Sides = variables
             .iter()
-            .map(|&x| Interval::around(x, EXACT))
+            .map(|&x| Interval::around(x, HALF_SIDE))
             .collect();
         let exact = holds_one(&there, &sides, &mut there.work()).then_some(sides);
         ExactPlace {
@@ -254,7 +254,7 @@ fn around(from: &ExactPlace, to: &ExactPlace) -> Option<Sides> {
     let way = pairs().map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let side = |(a, b): (&f64, &f64)| {
         let half = 0.5 * (a - b).abs();
-        Interval::around(0.5 * (a + b), half + 0.3 * way + 4.0 * EXACT)
+        Interval::around(0.5 * (a + b), half + 0.3 * way + 4.0 * HALF_SIDE)
     };
     way.is_finite().then(|| pairs().map(side).collect())
 }

@@ -6,7 +6,7 @@ use num_rational::Ratio;
 
 use super::Rule;
 use super::derivation::{Derivation, FoundRule};
-use super::single::{Circular, SingleUnknown, beside, cross, dot, polynomial};
+use super::single::{Circular, SingleUnknown, angle_sum, cross, dot, polynomial};
 use crate::algebra::{ByUnknowns, Trigonometric, Wave};
 use crate::number::real;
 use crate::number::tolerance::ROUNDING;
@@ -92,7 +92,7 @@ impl Derivation<'_> {
                 if !angle.iter().all(solvable) {
                     return None;
                 }
-                let beside = beside(rows.first()?, angle);
+                let beside = angle_sum(rows.first()?, angle);
                 let circular: Option<Vec<Circular>> = (rows.iter())
                     .map(|row| Circular::of(row, angle, &beside, &mut self.budget))
                     .collect();

@@ -68,7 +68,7 @@ fn monomial(angle: &[(u32, Ratio<i64>)]) -> Monomial {
 }
 
 /// The known angle κ added to an unknown one.
-pub(super) fn beside(equation: &ByUnknowns, angle: &[(u32, Ratio<i64>)]) -> Wave {
+pub(super) fn angle_sum(equation: &ByUnknowns, angle: &[(u32, Ratio<i64>)]) -> Wave {
     let first = equation.get(&monomial(angle));
     let first = first.and_then(|sum| sum.terms().next());
     first.map_or(Wave::default(), |(key, _)| key.wave.clone())

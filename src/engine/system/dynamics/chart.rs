@@ -139,7 +139,7 @@ impl Chart {
                     parts.reference = *reference;
                 }
             }
-            Still::beside(still, held)
+            Still::held_with(still, held)
         });
         let balance = Balance::new(mechanism, load, &motion, motion.kinematics(), false);
         let system = System::new(mechanism.dimensions(), motion.held());
@@ -177,7 +177,7 @@ impl Chart {
                 Coordinate::Turn(..) => {}
             }
         }
-        Still::beside(still, held)
+        Still::held_with(still, held)
     }
 
     /// The coordinates that lead best at a configuration: each next one is that which the freedoms left move fastest. The

@@ -3,7 +3,7 @@
 use super::{System, SystemWork};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT, norm};
 use crate::mechanism::Configuration;
-use crate::number::tolerance::{DOUBLE, EXACT, LONGEST_STEP};
+use crate::number::tolerance::{DOUBLE, EXACT, LONGEST_STEP, SUSPECT};
 use crate::solve::{
     Equations, Newton, NewtonReport, Stage, Stop, Watch, deflating_step, step_off_saddle,
 };
@@ -118,7 +118,7 @@ fn levelled(
     left: f64,
 ) -> Option<Configuration<f64>> {
     let lost = |tolerance| system.nullity(tolerance, work);
-    if lost(DOUBLE) == lost(RANK_TOLERANCE) {
+    if lost(SUSPECT) == lost(RANK_TOLERANCE) {
         return None;
     }
     let level = level(system, work, at.clone())?;

@@ -25,7 +25,7 @@ impl Still {
     }
 
     /// The held coordinates with these added.
-    pub fn beside(all: &[Still], mut held: Held<f64>) -> Held<f64> {
+    pub fn held_with(all: &[Still], mut held: Held<f64>) -> Held<f64> {
         for still in all {
             match *still {
                 Still::Joint(joint) => held.joints[joint] = true,
@@ -110,7 +110,7 @@ impl Question<'_> {
 
     /// The held coordinates with those added that stop local spins.
     pub fn with_still(&self, held: Held<f64>) -> Held<f64> {
-        Still::beside(&self.still, held)
+        Still::held_with(&self.still, held)
     }
 }
 

@@ -6,7 +6,7 @@ use rand::Rng;
 use super::{Neighbourhood, Tangent};
 use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
-use crate::number::tolerance::{DOUBLE, SOLVED, SUMMED};
+use crate::number::tolerance::{DOUBLE, SOLVED, SUMMED, SUSPECT};
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
 /// wₖᵀ J = 0, which every finite motion starts along.
@@ -174,7 +174,7 @@ impl Cone {
         let as_low = |at: &Configuration<f64>| {
             let decomposition = near.tangent(at.clone()).decomposition;
             let values = decomposition.singular_values();
-            let counts = values.iter().filter(|v| **v > DOUBLE * values[0]);
+            let counts = values.iter().filter(|v| **v > SUSPECT * values[0]);
             counts.count() <= from.decomposition.rank()
         };
         beside.iter().all(as_low).then_some(FlatSet {

@@ -24,7 +24,7 @@ impl<T: Number> KinematicsCourse<T> {
 
 impl<T: Number> PlacedStep<T> {
     /// With products left out only if they are for the other too; `None` if more than the fixed displacement differs.
-    fn beside(&self, other: &Self) -> Option<Self> {
+    fn change_to(&self, other: &Self) -> Option<Self> {
         let alike = self.parent == other.parent
             && self.still == other.still
             && self.need == other.need
@@ -50,7 +50,7 @@ impl<T: Number> Kinematics<T> {
     pub fn towards(&self, other: &Self) -> Option<(Self, KinematicsCourse<T>)> {
         let alike = self.frames == other.frames && self.steps.len() == other.steps.len();
         let pairs = || self.steps.iter().zip(&other.steps).filter(|_| alike);
-        let steps = pairs().map(|(from, to)| from.beside(to));
+        let steps = pairs().map(|(from, to)| from.change_to(to));
         let steps: Vec<PlacedStep<T>> = steps.collect::<Option<_>>().filter(|_| alike)?;
         let (mut shifts, mut turns) = (Vec::new(), Vec::new());
         for (i, (from, to)) in pairs().enumerate() {

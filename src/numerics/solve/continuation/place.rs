@@ -1,6 +1,6 @@
 //! A place on a curve of solutions.
 
-use crate::linear::{BESIDE_A_CROSSING, Decomposition, SINGULAR_PLACE, dot};
+use crate::linear::{Decomposition, SINGULAR_PLACE, SUSPECT, dot};
 
 /// A regular point of a curve with its tangent.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ impl<P> CurvePoint<P> {
 
     /// True if branches may cross so near that rounding decides which of them the tangent follows.
     pub fn is_beside_a_crossing(&self) -> bool {
-        self.least() < BESIDE_A_CROSSING * self.largest()
+        self.least() < SUSPECT * self.largest()
     }
 
     /// True if branches cross here, as at the places of a [`BranchPoint`](crate::solve::BranchPoint), located to

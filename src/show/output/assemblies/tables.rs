@@ -143,7 +143,11 @@ pub(super) fn joints(report: &AssembliesReport) -> Vec<Section> {
             let value = settled(a.joints.0[j].1, report, joint.unit);
             let text = quantity(value, joint.unit);
             // −180° may be within limits where 180° is not
-            if joint.periodic { once(text) } else { text }
+            if joint.periodic {
+                positive_half_turn(text)
+            } else {
+                text
+            }
         });
         let title = match block {
             0 => "Joints",
@@ -181,7 +185,7 @@ pub(super) fn platforms(report: &AssembliesReport) -> Vec<Section> {
                 0..3 => (pose.position[i], SiUnit::METRE),
                 _ => (pose.roll_pitch_yaw[i - 3], SiUnit::RADIAN),
             };
-            once(quantity(settled(value, report, unit), unit))
+            positive_half_turn(quantity(settled(value, report, unit), unit))
         });
         Section::new(format!("Platform {name}")).table(table)
     });
@@ -250,7 +254,7 @@ fn settled(value: f64, report: &AssembliesReport, unit: SiUnit) -> f64 {
 }
 
 /// Half a turn is printed one way, also where it is a little less than half a turn backwards.
-fn once(angle: String) -> String {
+fn positive_half_turn(angle: String) -> String {
     match angle.as_str() {
         "-180°" => "180°".into(),
         _ => angle,

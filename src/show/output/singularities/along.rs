@@ -40,6 +40,6 @@ impl Report for AlongReport {
             .words("branches", |(_, of)| of.branches)
             .values(&self.moved, |(_, of), k| of.moved[k])
             .values(&self.variables, |(_, of), k| of.joints[k]);
-        Some(table.once().into())
+        Some(table.without_repeats().into())
     }
 }

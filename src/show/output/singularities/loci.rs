@@ -54,7 +54,7 @@ impl Report for LocusReport {
             .values(&self.pose_variables, |(.., (.., poses)), k| {
                 poses.as_flattened()[k]
             });
-        Some(table.once().into())
+        Some(table.without_repeats().into())
     }
 }
 

@@ -7,7 +7,7 @@ use super::real::{named_joints, named_poses};
 use super::{Found, TargetProblem};
 use crate::analysis::assemblies::family::C;
 use crate::analysis::assemblies::report::{AssembliesReport, Assembly};
-use crate::linear::{ILL_CONDITIONED, rank_of};
+use crate::linear::{SOLVED, rank_of};
 use crate::solve::{Equations, Stage};
 use crate::system::SystemWork;
 
@@ -143,7 +143,7 @@ where
         return (columns == 0).then_some(1.0);
     }
     let values = DMatrix::from_column_slice(rows, columns, dense).singular_values();
-    (values.min() > ILL_CONDITIONED * values.max()).then(|| values.max() / values.min())
+    (values.min() > SOLVED * values.max()).then(|| values.max() / values.min())
 }
 
 /// Sign of det J on the equations chosen for all assemblies; 0 where they depend on one another.

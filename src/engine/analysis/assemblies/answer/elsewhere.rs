@@ -50,7 +50,7 @@ impl TargetProblem<'_> {
     }
 
     /// A real solution beside a complex point.
-    pub(crate) fn beside(
+    pub(crate) fn real_near(
         &self,
         x: &[C],
         homotopy: &mut ParameterHomotopy<'_>,

@@ -261,7 +261,7 @@ impl Coordinates {
 
     /// The solution `y` with the turns of its angles and the signs of its quaternions that
     /// bring it nearest to `x`.
-    pub fn beside(&self, x: &[C], y: &[C]) -> Vec<C> {
+    pub fn nearest_form(&self, x: &[C], y: &[C]) -> Vec<C> {
         let mut y = y.to_vec();
         let joints = self.free_joints.len();
         for ((x, y), &j) in x.iter().zip(&mut y).zip(&self.free_joints) {

@@ -5,7 +5,7 @@ use rand_pcg::Pcg64;
 
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::analysis::assemblies::track::{ParameterHomotopy, START, polish, stands_alone};
-use crate::number::tolerance::DOUBLE;
+use crate::number::tolerance::SUSPECT;
 use crate::solve::{Newton, Stop};
 use crate::system::{System, SystemWork};
 
@@ -69,7 +69,7 @@ pub(crate) fn newton_seeds(
     // solutions that coincide at the same point again
     let beside = reached(homotopy, None, &family.shaken(&x, 0.03, rng));
     match beside.map(|beside| family.coordinates.difference(&x, &beside)) {
-        Some(1e-3..1.0) => Seed::Free(homotopy.freedom(START, &x, DOUBLE)),
+        Some(1e-3..1.0) => Seed::Free(homotopy.freedom(START, &x, SUSPECT)),
         Some(..1e-3) => Seed::Multiple(x),
         _ => Seed::Nothing,
     }

@@ -198,7 +198,7 @@ impl ParameterHomotopy<'_> {
     /// |J (y − x)| at the first point, each row relative to its norm where that exceeds 1: rounding for
     /// two approximations of one solution, however ill-conditioned it is.
     pub fn seen_apart(&mut self, s: C, x: &[C], y: &[C]) -> f64 {
-        let y = self.family.coordinates.beside(x, y);
+        let y = self.family.coordinates.nearest_form(x, y);
         let step = self.step_between(s, x, &y);
         let (residual, jacobian) = self.evaluated(s, x);
         let rows = residual.len();

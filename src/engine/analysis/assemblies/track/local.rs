@@ -8,7 +8,7 @@ use super::homotopy::{END, ParameterHomotopy};
 use crate::analysis::assemblies::family::{C, size};
 use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd, add, dot, independent, norm, singular_values};
 use crate::number::real;
-use crate::number::tolerance::DOUBLE;
+use crate::number::tolerance::SUSPECT;
 use crate::solve::deflating_step;
 
 /// Distance of neighbours of a point, and of their neighbours.
@@ -96,12 +96,12 @@ impl<'a, 'f> Local<'a, 'f> {
             return dimension;
         }
         let linear = self.linear(x);
-        if self.freedom(&linear, DOUBLE) == 0 {
+        if self.freedom(&linear, SUSPECT) == 0 {
             return 0;
         }
         let mut largest = 0;
         for k in 0..NEIGHBOURS {
-            let Some(beside) = self.beside(x, k, BESIDE[0]) else {
+            let Some(beside) = self.settled_beside(x, k, BESIDE[0]) else {
                 continue;
             };
             if self.gap(x, &beside) > BACK * BESIDE[0] {
@@ -114,13 +114,13 @@ impl<'a, 'f> Local<'a, 'f> {
     /// The dimension spanned by the solutions beside a solution.
     fn spread(&mut self, x: &[C], stream: u64) -> usize {
         let linear = self.linear(x);
-        let free = linear.svd.values.len() - linear.rank(DOUBLE);
+        let free = linear.svd.values.len() - linear.rank(SUSPECT);
         if free == 0 {
             return 0;
         }
         let mut steps = Vec::new();
         for k in 0..free as u64 + 3 {
-            let Some(beside) = self.beside(x, 16 * (stream + 1) + k, BESIDE[1]) else {
+            let Some(beside) = self.settled_beside(x, 16 * (stream + 1) + k, BESIDE[1]) else {
                 continue;
             };
             if self.gap(x, &beside) < 10.0 * BESIDE[1] {
@@ -164,8 +164,8 @@ impl<'a, 'f> Local<'a, 'f> {
     /// vanish along the null vector, at corank k no less than 2ᵏ.
     pub fn order(&mut self, x: &[C]) -> usize {
         let linear = self.linear(x);
-        let rank = linear.rank(DOUBLE);
-        match self.freedom(&linear, DOUBLE) {
+        let rank = linear.rank(SUSPECT);
+        match self.freedom(&linear, SUSPECT) {
             0 => 1,
             1 => {
                 let mut gap = |length: f64| {
@@ -187,7 +187,7 @@ impl<'a, 'f> Local<'a, 'f> {
     }
 
     /// The solution that Gauss–Newton steps reach from beside a point.
-    fn beside(&mut self, x: &[C], stream: u64, distance: f64) -> Option<Vec<C>> {
+    fn settled_beside(&mut self, x: &[C], stream: u64, distance: f64) -> Option<Vec<C>> {
         let step = (0..self.columns()).map(|i| distance * shake(stream, i));
         let start = self.moved(x, &step.collect::<Vec<f64>>());
         self.settled(start)

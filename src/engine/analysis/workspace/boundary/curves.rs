@@ -55,7 +55,7 @@ impl BoundaryTracer<'_> {
                 let to = |i: usize| {
                     all.difference_but_turns(C::configuration(&known.traced.places[i].at), &at)
                 };
-                beside(known, |k, i| (known.points[i][k] - point[k]) / scale[k], to)
+                place_along(known, |k, i| (known.points[i][k] - point[k]) / scale[k], to)
             };
             let mut beside = known
                 .iter()
@@ -171,7 +171,7 @@ impl BoundaryTracer<'_> {
 ///
 /// The tangent turns by less than a quarter of a radian from one place to the next, so that the curve
 /// is off the chord by less than a thirtieth of its length.
-fn beside<P>(
+fn place_along<P>(
     known: &KnownCurve<P>,
     mapped: impl Fn(usize, usize) -> f64,
     step: impl Fn(usize) -> Vec<f64>,
