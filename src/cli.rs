@@ -1,6 +1,5 @@
 //! Commands, one file each. Data goes to stdout, problems to stderr.
 
-mod asked;
 mod assemblies;
 mod check;
 mod compare;
@@ -10,21 +9,24 @@ mod draw;
 mod equilibrium;
 mod examples;
 mod export;
-mod format;
 mod formulas;
 mod frames;
 mod generate;
 mod handout;
 mod help;
 mod import;
+mod live_server;
 mod merge;
 mod mobility;
 mod new;
+mod output_files;
 mod pictures;
+mod progress;
+mod question_options;
 mod read;
+mod report_format;
 mod schema;
-mod search;
-mod served;
+mod search_options;
 mod setup;
 mod shipped;
 mod simulate;
@@ -38,16 +40,14 @@ mod study;
 mod sweep;
 mod velocity;
 mod view;
-mod watched;
 mod words;
 mod workspace;
-mod written;
 
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
-use self::asked::Asking;
+use self::question_options::Asking;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use linkwork::output::complaint::Complaint;
 use linkwork::output::diagnostics::Style;
@@ -183,7 +183,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(answer) => {
             say(&answer.remarks);
             match write(&answer.data) {
-                Ok(()) if watched::was_cut_short() => {
+                Ok(()) if progress::was_cut_short() => {
                     say("note: interrupted: the answer has the results found so far\n");
                     1
                 }
@@ -196,7 +196,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
         Err(Refusal(problems)) => {
             say(&problems);
-            if watched::was_cut_short() { 1 } else { 2 }
+            if progress::was_cut_short() { 1 } else { 2 }
         }
     }
 }

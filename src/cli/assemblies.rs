@@ -5,9 +5,9 @@ use linkwork::analysis::assemblies::Wanted;
 use linkwork::ask::AskError;
 use linkwork::solve::Pruning;
 
-use super::asked::Split;
-use super::format::{Format, readable};
-use super::search::SearchArgs;
+use super::question_options::Split;
+use super::report_format::{Format, readable};
+use super::search_options::SearchArgs;
 use super::source::Source;
 use super::{Answer, Refusal, style};
 

@@ -4,7 +4,7 @@ use clap::Args;
 use linkwork::analysis::overview::overview;
 use linkwork::output::overview::latex;
 
-use super::format::{Format, readable};
+use super::report_format::{Format, readable};
 use super::source::Source;
 use super::{Answer, Refusal};
 

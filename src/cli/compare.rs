@@ -3,9 +3,9 @@
 use clap::Args;
 use linkwork::analysis::compare::CompareSettings;
 
-use super::asked::Posed;
-use super::format::{Format, readable};
-use super::search::seed;
+use super::question_options::Posed;
+use super::report_format::{Format, readable};
+use super::search_options::seed;
 use super::source::Source;
 use super::{Answer, Refusal};
 

@@ -9,7 +9,7 @@ use linkwork::mechanism::NamedPoint;
 use linkwork::output::complaint::{Complaint, OptionPart, no_point};
 use linkwork::output::{Report, conversion};
 
-use super::format::{Format, with_file};
+use super::report_format::{Format, with_file};
 use super::source::{Assignment, LoadedFile, Source};
 use super::{Answer, Refusal, lines, style};
 

@@ -15,11 +15,11 @@ use linkwork::output::design::{front, panel, panels_moving};
 use linkwork::output::diagnostics;
 use linkwork::output::drawing::sheet;
 
-use super::format::Format;
+use super::output_files::{file, written};
 use super::pictures::{Pictures, keep};
+use super::progress::watched;
+use super::report_format::Format;
 use super::source::Assignment;
-use super::watched::watched;
-use super::written::{file, written};
 use super::{Answer, Refusal, style};
 
 /// Find dimensions with which a mechanism passes through points or poses, or gives a function.

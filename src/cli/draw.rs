@@ -13,11 +13,11 @@ use linkwork::output::glb::glb;
 use linkwork::output::sweep::sentence;
 use linkwork::scene::{Scene, Triple};
 
-use super::asked::{Forces, Posed, QuestionOptions};
+use super::output_files::file;
 use super::pictures::{keep, view};
-use super::search::{SearchArgs, mode};
+use super::question_options::{Forces, Posed, QuestionOptions};
+use super::search_options::{SearchArgs, mode};
 use super::source::Source;
-use super::written::file;
 use super::{Answer, Refusal, lines};
 
 /// Draw the assembled mechanism as SVG, PNG or GLB.

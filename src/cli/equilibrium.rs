@@ -7,10 +7,10 @@ use linkwork::output::drawing::sheet;
 use linkwork::output::equilibrium::panels;
 use linkwork::system::Analysed;
 
-use super::asked::{AnalysisArgs, Forces, Posed};
-use super::format::Format;
 use super::pictures::Pictures;
-use super::search::seed;
+use super::question_options::{AnalysisArgs, Forces, Posed};
+use super::report_format::Format;
+use super::search_options::seed;
 use super::{Answer, Refusal};
 
 /// Find where the mechanism rests under weights, springs and forces, whether it is stable, and how it swings about it.

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use linkwork::ask::Question;
 use linkwork::interchange::{Remark, tree_of, write_mjcf, write_sdf, write_urdf};
-use linkwork::output::{Report, closing, text};
+use linkwork::output::{Report, assembly_remarks, text};
 use linkwork::system::{Analysed, Closed};
 
-use super::asked::{Posed, QuestionOptions};
+use super::output_files::{fits, written};
+use super::question_options::{Posed, QuestionOptions};
 use super::source::Source;
-use super::written::{fits, written};
 use super::{Answer, Refusal, lines};
 
 /// Write a mechanism as a file for another program.
@@ -82,7 +82,7 @@ impl Export {
             To::Urdf => write_urdf(&tree),
         };
         said.extend(more);
-        let outside = closing::outside_limits(&closed.outside_limits(mechanism));
+        let outside = assembly_remarks::outside_limits(&closed.outside_limits(mechanism));
         let said = lines("warning", outside) + &remarks(&said);
         let data = written(text, self.output.as_deref())?;
         Ok(Answer::yes(data, posed.loaded.warnings() + &said))

@@ -9,10 +9,10 @@ use linkwork::mechanism::Frame;
 use linkwork::output::complaint::Complaint;
 use linkwork::output::formulas as output;
 
-use super::asked::{self, AnalysisArgs, Posed};
-use super::format::Format;
+use super::progress::watched;
+use super::question_options::{self, AnalysisArgs, Posed};
+use super::report_format::Format;
 use super::source::LoadedFile;
-use super::watched::watched;
 use super::{Answer, Refusal, lines};
 
 /// Write out transforms, closure equations and screw Jacobians in closed form.
@@ -58,7 +58,7 @@ impl AnalysisArgs for Formulas {
         }
         let loaded = &posed.loaded;
         let named = |name: &Option<String>, option| {
-            let frame = |name| asked::frame(&loaded.mechanism, name, option);
+            let frame = |name| question_options::frame(&loaded.mechanism, name, option);
             name.as_deref().map(frame).transpose()
         };
         let (of, relative_to) = (named(&self.of, "--of")?, named(&self.relative_to, "--in")?);

@@ -15,9 +15,9 @@ use linkwork::output::frames as output;
 use linkwork::output::rounding::{Prefaced, sentence};
 use linkwork::system::Analysed;
 
-use super::format::{Format, with_file};
+use super::progress::watched;
 use super::read::{called, text};
-use super::watched::watched;
+use super::report_format::{Format, with_file};
 use super::{Answer, Refusal, lines};
 
 /// Derive Denavit–Hartenberg tables from joint axes, or joint axes from tables.

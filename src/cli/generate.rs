@@ -6,9 +6,9 @@ use clap::Args;
 use linkwork::ask::SolverSettings;
 use linkwork::output::solver::{Code, Language, Precision};
 
-use super::asked::{self, Forces, QuestionOptions};
+use super::output_files::{fits, save, written};
+use super::question_options::{self, Forces, QuestionOptions};
 use super::source::Source;
-use super::written::{fits, save, written};
 use super::{Answer, Refusal};
 
 /// Write a solver for one question as source code, C or Rust, without dependencies.
@@ -66,7 +66,12 @@ impl Generate {
         posed.mode(self.mode);
         self.forces.pose(&mut posed);
         let mechanism = posed.question.mechanism().clone();
-        let named = |name: &String| Ok((name.clone(), asked::frame(&mechanism, name, "--frame")?));
+        let named = |name: &String| {
+            Ok((
+                name.clone(),
+                question_options::frame(&mechanism, name, "--frame")?,
+            ))
+        };
         let frames = self.frame.iter().map(named);
         let settings = SolverSettings {
             frames: frames.collect::<Result<_, Refusal>>()?,

@@ -13,10 +13,10 @@ use linkwork::output::drawing::{DrawingSettings, Panel, sheet};
 use linkwork::output::{Document, Report, html};
 use linkwork::scene::Scene;
 
-use super::asked::QuestionOptions;
-use super::search::SearchArgs;
+use super::output_files::{file, save};
+use super::question_options::QuestionOptions;
+use super::search_options::SearchArgs;
 use super::source::Source;
-use super::written::{file, save};
 use super::{Answer, Refusal, lines};
 
 /// Write all about a mechanism on one page, to be handed out or projected.

@@ -18,8 +18,8 @@ use linkwork::solve::Watch;
 use linkwork::system::redundant_motors;
 
 use super::export::remarks;
+use super::output_files::{file, written};
 use super::read::{called, text};
-use super::written::{file, written};
 use super::{Answer, Refusal, lines, style};
 
 /// Read a URDF, MJCF or SDF file as a mechanism.

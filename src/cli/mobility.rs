@@ -4,9 +4,9 @@ use clap::Args;
 use linkwork::analysis::mobility::MobilitySettings;
 use linkwork::ask::{Question, Role};
 
-use super::asked::{AnalysisArgs, Posed};
-use super::format::Format;
-use super::search::seed;
+use super::question_options::{AnalysisArgs, Posed};
+use super::report_format::Format;
+use super::search_options::seed;
 use super::{Answer, Refusal};
 
 /// Find the mobility of the assembled mechanism, the joints that move, and redundant constraints.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use linkwork::output::complaint::Complaint;
 
+use super::output_files::save;
 use super::read::is_stdin;
-use super::written::save;
 use super::{Answer, Refusal, shipped};
 
 /// Begin a mechanism file: a copy of an example, with its comments.

@@ -8,7 +8,7 @@ use linkwork::output::drawing::{DrawingSettings, Panel, Viewpoint, frames};
 use linkwork::output::glb::glb;
 
 use super::Refusal;
-use super::written::{file, save};
+use super::output_files::{file, save};
 
 pub fn view(text: &str) -> Result<Viewpoint, String> {
     let angle = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());

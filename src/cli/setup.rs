@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use clap_complete::{Shell, generate};
 use linkwork::output::complaint::Complaint;
 
-use super::written::save;
+use super::output_files::save;
 use super::{Answer, Refusal, command};
 
 /// Install the completions of shells and the manual for this user.

@@ -7,9 +7,9 @@ use linkwork::ask::Role;
 use linkwork::output::sweep::Picture;
 use linkwork::system::Analysed;
 
-use super::asked::{AnalysisArgs, Forces, Posed};
-use super::format::Format;
 use super::pictures::Pictures;
+use super::question_options::{AnalysisArgs, Forces, Posed};
+use super::report_format::Format;
 use super::source::Assignment;
 use super::{Answer, Refusal};
 

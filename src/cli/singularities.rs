@@ -7,11 +7,11 @@ use linkwork::analysis::singularities::SingularitiesSettings;
 use linkwork::ask::Role;
 use linkwork::output::singularities as output;
 
-use super::asked::{AnalysisArgs, Posed};
-use super::format::Format;
-use super::search::{SearchArgs, mode};
+use super::output_files::{file, save};
+use super::question_options::{AnalysisArgs, Posed};
+use super::report_format::Format;
+use super::search_options::{SearchArgs, mode};
 use super::source::Assignment;
-use super::written::{file, save};
 use super::{Answer, Refusal};
 use linkwork::output::complaint::Ranged;
 

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use linkwork::analysis::rounding::snap;
 
-use super::format::{Format, with_file};
+use super::output_files::{file, written};
+use super::report_format::{Format, with_file};
 use super::source::Source;
-use super::written::{file, written};
 use super::{Answer, Refusal};
 
 /// Write the nearest linkage whose loops close exactly, where those of a file close only within the rounding of its numbers.

@@ -4,9 +4,9 @@ use clap::Args;
 use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::ask::Solved;
 
-use super::asked::{AnalysisArgs, Posed};
-use super::format::Format;
-use super::search::{SearchArgs, mode};
+use super::question_options::{AnalysisArgs, Posed};
+use super::report_format::Format;
+use super::search_options::{SearchArgs, mode};
 use super::{Answer, Refusal};
 
 /// Find the assembled configuration near a guess.

@@ -12,8 +12,8 @@ use linkwork::output::rounding::{Prefaced, sentence};
 use linkwork::output::{JsonReport, diagnostics};
 use linkwork::view::Viewed;
 
-use super::format::Format;
 use super::read::{called, help, is_stdin, text};
+use super::report_format::Format;
 use super::{Answer, Refusal, lines, style};
 
 #[derive(Args)]

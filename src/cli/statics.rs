@@ -3,8 +3,8 @@
 use clap::Args;
 use linkwork::ask::Question;
 
-use super::asked::{AnalysisArgs, Forces, Posed};
-use super::format::Format;
+use super::question_options::{AnalysisArgs, Forces, Posed};
+use super::report_format::Format;
 use super::{Answer, Refusal};
 
 /// Find the actuator forces that balance a load, and the reactions in all joints and closures.

@@ -9,7 +9,7 @@ use linkwork::analysis::assemblies::{GenericSolutions, StoredError};
 use linkwork::ask;
 use linkwork::output::complaint::Complaint;
 
-use super::written::{beside, replace};
+use super::output_files::{beside, replace};
 use super::{Refusal, say};
 
 /// The largest store that is read (bytes): a hundred times that of a thousand solutions of a large mechanism.

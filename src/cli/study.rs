@@ -9,11 +9,11 @@ use linkwork::ask::{self, Points, Role};
 use linkwork::output::complaint::Ranged;
 use linkwork::output::study::{Label, csv, spread};
 
-use super::asked::{Forces, QuestionOptions};
-use super::search::SearchArgs;
+use super::output_files::{file, save};
+use super::progress::{cut_short_is_said, watched};
+use super::question_options::{Forces, QuestionOptions};
+use super::search_options::SearchArgs;
 use super::source::{Assignment, Source};
-use super::watched::{cut_short_is_said, watched};
-use super::written::{file, save};
 use super::{Answer, Refusal, lines};
 
 /// Compute quantities over many values of parameters and coordinates.

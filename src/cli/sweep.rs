@@ -13,15 +13,15 @@ use linkwork::output::complaint::Ranged;
 use linkwork::output::csv::Csv;
 use linkwork::output::sweep::{Picture, SHOWN, certified, row_columns, row_values, sentence};
 
-use super::asked::{AnalysisArgs, Forces, Posed};
-use super::format::Format;
+use super::output_files::{StdoutLines, unwritten};
 use super::pictures::Pictures;
+use super::progress::watched;
+use super::question_options::{AnalysisArgs, Forces, Posed};
 use super::read::{called, text};
-use super::search::{SearchArgs, mode};
+use super::report_format::Format;
+use super::search_options::{SearchArgs, mode};
 use super::source::Assignment;
-use super::watched::watched;
 use super::words;
-use super::written::{StdoutLines, unwritten};
 use super::{Answer, Refusal, lines};
 
 /// Move the inputs through their ranges: positions, rates, forces and other quantities; never switches branch silently.

@@ -3,8 +3,8 @@
 use clap::Args;
 use linkwork::ask::{Question, Role};
 
-use super::asked::{AnalysisArgs, Posed};
-use super::format::Format;
+use super::question_options::{AnalysisArgs, Posed};
+use super::report_format::Format;
 use super::source::Assignment;
 use super::{Answer, Refusal};
 

@@ -6,9 +6,9 @@ use clap::Args;
 use linkwork::output::complaint::Complaint;
 use linkwork::view::{Viewed, page};
 
-use super::served::serve;
+use super::live_server::serve;
+use super::output_files::{file, save};
 use super::source::{Assignment, Source};
-use super::written::{file, save};
 use super::{Answer, Refusal};
 
 /// Write a page in which the mechanism can be moved, with the solver inside.

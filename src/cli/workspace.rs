@@ -7,12 +7,12 @@ use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::Mode;
 use linkwork::output::{Report, workspace as output};
 
-use super::asked::{AnalysisArgs, Posed};
-use super::format::{Format, beside_rows};
-use super::search::SearchArgs;
+use super::output_files::{file, rows, save};
+use super::question_options::{AnalysisArgs, Posed};
+use super::report_format::{Format, beside_rows};
+use super::search_options::SearchArgs;
 use super::source::Assignment;
 use super::words;
-use super::written::{file, rows, save};
 use super::{Answer, Refusal, lines, style};
 use linkwork::output::complaint::Ranged;
 

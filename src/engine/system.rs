@@ -7,7 +7,7 @@
 //! follows one-parameter curves of configurations; [`bundle`](Bundle) solves for many configurations that share dimensions.
 
 mod balance;
-mod bearing;
+mod ball_angle_sets;
 mod branch;
 mod bundle;
 mod closed_form;
@@ -16,21 +16,21 @@ mod dynamics;
 mod enclosure;
 mod equations;
 mod equilibrium;
+mod joint_reactions;
 mod joint_space;
 mod lanes;
 mod loaded;
 mod question;
 mod record;
-mod resting;
+mod rest_equations;
 mod search;
-mod sets;
 mod tangent;
 
 pub use crate::mechanism::{
     ByName, FormulaNames, FrameRecord, PlatformRecord, PointError, Value, ValueError,
 };
 pub use balance::{Balance, Instant};
-pub use bearing::{Bearings, Carried};
+pub use ball_angle_sets::sets_of_angles;
 pub use branch::BRANCH_CHANGE;
 pub(crate) use bundle::SideRows;
 pub use bundle::{Arrow, Bundle, Bundled, Closer, Copies, PathForm, Target, TargetError};
@@ -48,6 +48,7 @@ pub use equations::{
 };
 pub(crate) use equations::{ConstantsCourse, solve};
 pub use equilibrium::Equilibrium;
+pub use joint_reactions::{Bearings, Carried};
 pub use joint_space::Unfit;
 pub(crate) use joint_space::{JointSpace, enclosed};
 pub(crate) use lanes::{LaneNumbers, LaneProgram, Mask, assign, bits, choose, small};
@@ -59,12 +60,11 @@ pub use question::{
 };
 pub use record::{NamedUnit, infinite_if_null};
 pub(crate) use record::{is_origin, uncut};
-pub use resting::{NotAlgebraic, RestEquations, RestWay};
+pub use rest_equations::{NotAlgebraic, RestEquations, RestWay};
 pub use search::{
     Analysed, AssemblySettings, Attempt, Closed, GivenPose, Moved, NotClosed, RESTARTS, Search,
     Searched, TooLarge, WidestGap, close, moved, random_configuration, sampling_range, too_large,
 };
-pub use sets::sets_of_angles;
 pub use tangent::{
     Cone, Driving, FINITE_STEP, FiniteStep, FlatSet, FrameMotion, FrameTwists, Freedoms, Lasting,
     Lock, Locked, LoopPart, MechanismLoop, Motion, Neighbourhood, RegularFreedoms, SET_STEP, Screw,

@@ -8,7 +8,6 @@ mod masses;
 mod mechanism_tree;
 mod mjcf;
 mod names;
-mod page;
 mod pins;
 mod problem;
 mod remark;
@@ -17,7 +16,8 @@ mod sdf;
 mod tree;
 mod unroll;
 mod urdf;
-mod xml;
+mod xml_reader;
+mod xml_writer;
 
 pub use import::{ImportError, ImportSettings, Imported, import, load, load_beside};
 pub use mechanism_tree::tree_of;

@@ -1,11 +1,12 @@
 //! The valid, immutable mechanism, and its kinematics over any number.
 
+mod ball_rows;
 mod build;
 mod centre;
-mod closing;
 mod closure;
 mod configuration;
 mod coordinate;
+mod cut_joints;
 mod dimensions;
 mod follower;
 mod frames;
@@ -25,7 +26,6 @@ mod quantity;
 mod record;
 mod recut;
 mod relation;
-mod rings;
 mod rounded;
 mod section;
 mod serial_axes;
@@ -34,9 +34,9 @@ mod value;
 mod vanishing;
 mod variable;
 
-pub use closing::{ClosingJoint, ClosingValues};
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
 pub use coordinate::PoseCoordinate;
+pub use cut_joints::{ClosingJoint, ClosingValues};
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
 pub use follower::FollowingOutput;
 pub use frames::Body;
@@ -48,10 +48,10 @@ pub use point::{NamedPoint, Point, PointError};
 pub use record::{ByName, FormulaNames, FrameRecord, PlatformRecord};
 pub use relation::JointRelation;
 
+pub use ball_rows::LockedBall;
 pub use quantity::{
     Carrier, Effort, Energy, Figure, Measured, Order, Quantity, QuantityError, ScrewPart, Worker,
 };
-pub use rings::LockedBall;
 pub use rounded::{NumberChange, Rounded, Rounding};
 pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;
@@ -68,9 +68,9 @@ use std::sync::{Arc, OnceLock};
 
 use crate::description::{JointCoordinates, LoadsDescription, Problem};
 
-pub use closing::joint_values;
 pub use closure::{ClosureEquations, EVERY_ROW, Kept, Side, needs};
 pub use coordinate::orientation_rows;
+pub use cut_joints::joint_values;
 pub use kinematics::{KinematicsCourse, Mover, Need};
 pub use letters::{Formal, Letters};
 pub use recut::Recut;

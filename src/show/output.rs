@@ -17,8 +17,8 @@ pub use json::{AnyReport, JsonReport};
 pub use report::{Remarks, Report, Rows};
 
 pub mod assemblies;
+pub mod assembly_remarks;
 pub mod canvas;
-pub mod closing;
 pub mod comparison;
 pub mod complaint;
 pub mod conversion;

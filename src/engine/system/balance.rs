@@ -1,6 +1,6 @@
 //! Balance of the loads of a moving mechanism: forces of its drives, and reactions.
 
-use super::bearing::{Bearings, Carried};
+use super::joint_reactions::{Bearings, Carried};
 use super::loaded::{Acting, Loaded, Moving};
 use super::{FrameTwists, Load, Motion};
 use crate::geometry::Vector3;

@@ -1,8 +1,8 @@
 //! The search for an assembled configuration: from the guess, then from random starts.
 
 mod closing;
+mod home_continuation;
 mod random;
-mod way;
 
 pub use closing::{
     Analysed, AssemblySettings, Closed, GivenPose, Moved, NotClosed, TooLarge, WidestGap, close,

@@ -7,7 +7,6 @@ use thiserror::Error;
 
 use super::mjcf::{self, Files, NotRead};
 use super::names::fit;
-use super::page::{document, strict};
 use super::pins::on_one_pin;
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
@@ -16,6 +15,7 @@ use super::sdf;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
 use super::urdf;
+use super::xml_reader::{document, strict};
 use crate::description::{Convention, Description, LoadError, load_text, nearest};
 
 /// Settings of an import.

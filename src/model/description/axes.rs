@@ -12,7 +12,7 @@ use std::ops::Range;
 pub use graph::Graph;
 pub use tables::JointCoordinates;
 
-use super::structures::{axes_structures, declared};
+use super::file_fields::{axes_structures, declared};
 use super::{
     ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, LoadsDescription, Named,
     Role, Spanned, place_of,

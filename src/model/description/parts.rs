@@ -10,7 +10,7 @@ use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
 use super::ClosureKind;
-use super::structures::{declared, part_structures};
+use super::file_fields::{declared, part_structures};
 use crate::algebra::{Expression, words};
 pub use crate::geometry::Axis;
 use crate::geometry::{Pose, Vector3};

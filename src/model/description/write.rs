@@ -5,7 +5,7 @@ use serde::ser::{
     Serialize, SerializeStruct, SerializeStructVariant, SerializeTupleVariant, Serializer,
 };
 
-use super::structures::{axes_structures, load_structures, part_structures};
+use super::file_fields::{axes_structures, load_structures, part_structures};
 use super::*;
 
 impl Description {

@@ -9,7 +9,7 @@ mod tables;
 pub use completeness::completeness;
 pub(crate) use proof::reason;
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Document, Section};
 use super::quantity::{are, clause, form, values};
 use super::report::{Remarks, Report};
@@ -233,8 +233,8 @@ fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> Section {
         ),
     };
     let gaps = (closest.gaps.0.iter())
-        .map(|(name, gap)| format!("{name}: {}", closing::gap(gap.distance, gap.angle)));
+        .map(|(name, gap)| format!("{name}: {}", assembly_remarks::gap(gap.distance, gap.angle)));
     let joints = values(&report.variables, closest.joints.values());
-    let squared = (closest.squared_lengths).then(|| closing::SQUARED_LENGTHS.to_owned());
+    let squared = (closest.squared_lengths).then(|| assembly_remarks::SQUARED_LENGTHS.to_owned());
     Section::new(title).list(gaps).list(joints).list(squared)
 }

@@ -1,6 +1,6 @@
 //! Rest positions as documents.
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Cell, Document, Section, Table};
 use super::drawing::Panel;
 use super::quantity::{bound, if_any, number, quantity};
@@ -17,7 +17,7 @@ use crate::system::NotAlgebraic;
 
 impl Report for EquilibriumReport {
     fn document(&self) -> Document {
-        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
+        let answer = assembly_remarks::after_moving(self.pose.moved.as_ref(), sentence(self));
         let several = self.positions.len() > 1;
         let sections = self.positions.iter().enumerate().map(|(i, of)| {
             let title = match several {
@@ -29,7 +29,7 @@ impl Report for EquilibriumReport {
         Document::new(&self.mechanism, answer)
             .yes_if(!self.positions.is_empty())
             .interrupted(self.interrupted, "")
-            .notes(closing::notes(&self.pose))
+            .notes(assembly_remarks::notes(&self.pose))
             .notes(self.complete.iter().map(|of| completeness(of, self.seed)))
             .notes(self.not_algebraic.iter().map(not_algebraic))
             .sections(sections)

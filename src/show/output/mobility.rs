@@ -2,7 +2,7 @@
 
 mod words;
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Document, Section, Table, TableOf};
 use super::quantity::{if_any, metres, size};
 use super::report::{Remarks, Report};
@@ -31,7 +31,7 @@ impl Report for MobilityReport {
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
         let elimination = words::elimination(self);
-        closing::document(&self.mechanism, words::mobility(self), &self.pose, self.length)
+        assembly_remarks::document(&self.mechanism, words::mobility(self), &self.pose, self.length)
             .remarks(remarks)
             .interrupted(self.interrupted, "branches and other assemblies")
             .notes(words::judged(self))
@@ -39,7 +39,7 @@ impl Report for MobilityReport {
             .notes(idle.map(|idle| format!("not counted: {idle}")))
             .notes(words::locked(self))
             .notes(elsewhere)
-            .notes(closing::notes(&self.pose))
+            .notes(assembly_remarks::notes(&self.pose))
             .section(joints(self))
             .section(
                 Section::new(

@@ -1,6 +1,6 @@
 //! Simulated motions as documents and rows.
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Cell, Document, Section, Table};
 use super::quantity::{Quantified, bound, number, quantity};
 use super::report::{Report, Rows};
@@ -13,11 +13,11 @@ use crate::system::NamedUnit;
 
 impl Report for SimulationReport {
     fn document(&self) -> Document {
-        let answer = closing::after_moving(self.pose.moved.as_ref(), sentence(self));
+        let answer = assembly_remarks::after_moving(self.pose.moved.as_ref(), sentence(self));
         let document = Document::new(&self.mechanism, answer)
             .yes_if([SimulationEnd::Over, SimulationEnd::Linearised].contains(&self.end))
-            .warnings(closing::outside_limits(&self.pose.outside_limits))
-            .notes(closing::notes(&self.pose));
+            .warnings(assembly_remarks::outside_limits(&self.pose.outside_limits))
+            .notes(assembly_remarks::notes(&self.pose));
         if self.rows.is_empty() {
             return document;
         }

@@ -8,7 +8,7 @@ mod words;
 
 pub use picture::svg;
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Document, Section, Table};
 use super::quantity::{metres, short, values};
 use super::report::{Remarks, Report};
@@ -25,11 +25,11 @@ impl Report for SingularitiesReport {
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
         let at = values(&self.variables, &self.joints);
         let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
-        closing::document(&self.mechanism, answer, &self.pose, self.normalising_length)
+        assembly_remarks::document(&self.mechanism, answer, &self.pose, self.normalising_length)
             .remarks(Remarks::note(&note(&self.coupled)))
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
-            .notes(closing::notes(&self.pose))
+            .notes(assembly_remarks::notes(&self.pose))
             .notes(at)
             .sections(details(singularity))
             .section(distances(&singularity.distances, self.normalising_length))

@@ -1,6 +1,6 @@
 //! An assembled configuration, or why there is none, as a document.
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Cell, Document, Section, Table, TableOf};
 use super::quantity::{clause, degrees, form, number, quantity, size};
 use super::report::Report;
@@ -17,7 +17,7 @@ impl Report for AssemblyReport {
         Document::new(&self.mechanism, sentence(self))
             .yes_if(self.outcome == Outcome::Converged)
             .warnings(self.warning())
-            .notes(self.moved.as_ref().map(closing::from_start))
+            .notes(self.moved.as_ref().map(assembly_remarks::from_start))
             .interrupted(self.interrupted, "other starts")
             .notes(redundant(self))
             .notes(left(self))
@@ -34,7 +34,7 @@ impl Report for AssemblyReport {
 
 fn sentence(report: &AssemblyReport) -> String {
     let gap = |closure: &str| match report.gaps.get(closure) {
-        Some(gap) => closing::gap(gap.distance, gap.angle),
+        Some(gap) => assembly_remarks::gap(gap.distance, gap.angle),
         None => "0 m".into(),
     };
     match &report.outcome {
@@ -51,7 +51,7 @@ fn sentence(report: &AssemblyReport) -> String {
             ),
         },
         Outcome::ConvergedOutsideLimits { joints } => {
-            let outside = closing::outside_limits(joints).unwrap_or_default();
+            let outside = assembly_remarks::outside_limits(joints).unwrap_or_default();
             format!("Assembled, but {outside}.")
         }
         Outcome::Singular {
@@ -180,7 +180,7 @@ fn found(report: &AssemblyReport) -> String {
             format!(", after {starts} with seed {}", report.seed)
         }
     };
-    let rods = (report.squared_lengths).then(|| format!("; {}", closing::SQUARED_LENGTHS));
+    let rods = (report.squared_lengths).then(|| format!("; {}", assembly_remarks::SQUARED_LENGTHS));
     format!(
         "{}{restarts}; residual {}, condition number {}{}",
         count(report.steps, "Newton step"),

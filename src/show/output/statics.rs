@@ -1,6 +1,6 @@
 //! The forces in a mechanism as a document.
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Cell, Document, Table, TableOf};
 use super::quantity::{metres, number, shown, size, with_unit};
 use super::report::Report;
@@ -12,7 +12,7 @@ impl Report for StaticsReport {
     fn document(&self) -> Document {
         let length = self.normalising_length;
         let rounding = rounding(self);
-        closing::document(&self.mechanism, sentence(self), &self.pose, length)
+        assembly_remarks::document(&self.mechanism, sentence(self), &self.pose, length)
             .yes_if(self.unbalanced.is_empty())
             .note(format!(
                 "{}condition number {}, forces multiplied by {} for comparison with moments",
@@ -21,7 +21,7 @@ impl Report for StaticsReport {
                 metres(length)
             ))
             .notes(across(self))
-            .notes(closing::notes(&self.pose))
+            .notes(assembly_remarks::notes(&self.pose))
             .table("Loads", loads(self))
             .table("Loads on joints", forces(&self.joint_loads, [0.0; 2]))
             .table("Springs and forces of the file", forces(&self.springs, [0.0; 2]))

@@ -10,7 +10,7 @@ pub(super) use course::DrawnCourse;
 pub use picture::Picture;
 pub use words::{certified, sentence};
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Cell, Document, Section, Table};
 use super::quantity::quantity;
 use super::report::{Remarks, Report};
@@ -32,10 +32,11 @@ impl Report for MotionsReport {
         let document = match &self.motions[..] {
             [one] => {
                 let moved = self.moved.as_ref();
-                let answer = closing::after_moving(moved, mode(one) + &sentence(&one.sweep));
+                let answer =
+                    assembly_remarks::after_moving(moved, mode(one) + &sentence(&one.sweep));
                 let document = Document::new(&self.mechanism, answer);
                 let document = document.interrupted(interrupted, "");
-                let document = document.notes(closing::distance_moved(moved));
+                let document = document.notes(assembly_remarks::distance_moved(moved));
                 let document = document.notes(remarks(one).concat()).sections(parts(one));
                 document.method(words::work(&one.sweep))
             }

@@ -1,6 +1,6 @@
 //! Velocities of an assembled mechanism, as a document.
 
-use super::closing;
+use super::assembly_remarks;
 use super::document::{Cell, Document, Section, Table, TableOf};
 use super::quantity::{Quantified, metres, number, size, triple};
 use super::report::Report;
@@ -14,14 +14,14 @@ use crate::description::{count, listed};
 impl Report for VelocityReport {
     fn document(&self) -> Document {
         let jacobian = self.jacobian.as_ref();
-        closing::document(
+        assembly_remarks::document(
             &self.mechanism,
             sentence(self),
             &self.pose,
             self.normalising_length,
         )
         .yes_if(self.is_determined())
-        .notes(closing::notes(&self.pose))
+        .notes(assembly_remarks::notes(&self.pose))
         .table("Joints", joints(self))
         .sections(self.frames.iter().map(frame))
         .sections(jacobian.map(|j| matrix(j, self.normalising_length)))

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use roxmltree::Node;
 
 use crate::geometry::Vector3;
-use crate::interchange::page::Problems;
 use crate::interchange::problem::ImportProblemKind;
+use crate::interchange::xml_reader::Problems;
 
 /// Elements that do not affect how bodies move.
 const IRRELEVANT: &str = "asset camera composite contact custom deformable extension geom hfield light \

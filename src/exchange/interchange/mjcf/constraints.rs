@@ -10,9 +10,9 @@ use super::hinges::hinges;
 use super::part::{BodyParts, pose};
 use crate::description::{ClosureKind, GivenNames};
 use crate::geometry::{Pose, Quaternion, Vector3};
-use crate::interchange::page::{Problems, children, parse, tag};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Bend, Coupling, Extent, Tree, TreeJoint, TreeLoop};
+use crate::interchange::xml_reader::{Problems, children, parse, tag};
 
 /// Adds the constraints of a file to its tree.
 pub(super) fn read(

@@ -3,8 +3,8 @@
 use roxmltree::Node;
 
 use super::include::{MOST_BYTES, Spliced};
-use crate::interchange::page::{Problems, document};
 use crate::interchange::problem::WrongFile;
+use crate::interchange::xml_reader::{Problems, document};
 
 /// The text with all copies written out: R₀ `<frame>` R₁ `<frame>` R₂ … `</frame>` `</frame>`, each copy displaced against the
 /// one before, with its number behind the names in it.

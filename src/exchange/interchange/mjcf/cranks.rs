@@ -4,8 +4,8 @@ use roxmltree::Node;
 
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::children;
 use crate::interchange::tree::{Attachment, BodyMotion, Extent, TreeBody, TreeJoint, TreeLoop};
+use crate::interchange::xml_reader::children;
 
 /// The actuators of a file that do.
 pub(super) fn slider_cranks<'a, 'i>(root: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {

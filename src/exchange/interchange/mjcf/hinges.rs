@@ -1,8 +1,8 @@
 //! Points that make a hinge.
 
 use crate::description::ClosureKind;
-use crate::interchange::page::along_z;
 use crate::interchange::tree::TreeLoop;
+use crate::interchange::xml_reader::along_z;
 
 /// Two points of the same two bodies, at the same distance on both, are a hinge.
 pub(super) fn hinges(loops: Vec<TreeLoop>) -> Vec<TreeLoop> {

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::interchange::page::{document, tag};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind, WrongFile};
+use crate::interchange::xml_reader::{document, tag};
 
 /// The largest depth of nested includes.
 const MOST_LEVELS: usize = 20;

@@ -1,7 +1,7 @@
 //! The bodies of the tree that correspond to those of an MJCF model, and poses of mjcf-rs.
 
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::turned;
+use crate::interchange::xml_reader::turned;
 
 /// A body and its place in the tree: its first and its last part, if it was split.
 pub(super) type BodyParts = Vec<usize>;

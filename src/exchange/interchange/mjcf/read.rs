@@ -18,10 +18,10 @@ use super::part::{BodyParts, pose};
 use crate::description::{GivenNames, unless};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 use crate::interchange::masses::Heavy;
-use crate::interchange::page::{Problems, child, children, direction, document, parse};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{BodyMotion, Tree, TreeBody, TreeJoint};
+use crate::interchange::xml_reader::{Problems, child, children, direction, document, parse};
 use crate::number::sorting::sort_by_key;
 
 /// Reads the text of an MJCF file without `include`.

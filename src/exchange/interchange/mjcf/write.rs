@@ -16,7 +16,7 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{BodyMotion, Coupling, Extent, Tree, TreeBody, TreeJoint, TreeLoop};
-use crate::interchange::xml::{Xml, numbers, place, vector};
+use crate::interchange::xml_writer::{Xml, numbers, place, vector};
 
 /// The text of an MJCF file, with remarks on its differences from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {

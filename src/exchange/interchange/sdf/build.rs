@@ -6,10 +6,10 @@ use super::parts::{SdfAxis, SdfJoint, SdfType, direction_in, frame_of};
 use super::read::Builder;
 use crate::description::{ClosureKind, GivenNames};
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::along_z;
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{self, BodyMotion, Coupling, TreeLoop};
+use crate::interchange::xml_reader::along_z;
 
 impl Builder<'_> {
     /// World from the frame of a joint, and its axes there, each a unit vector.

@@ -5,7 +5,7 @@ use roxmltree::Node;
 use super::model::{ModelScope, SdfReader};
 use super::parts::{KINDS, SdfAxis, SdfJoint, SdfType, frame_of};
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{child, tag};
+use crate::interchange::xml_reader::{child, tag};
 
 impl SdfReader<'_> {
     pub(super) fn joint(&mut self, node: Node, scope: &ModelScope) -> Option<SdfJoint> {

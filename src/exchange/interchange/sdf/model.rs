@@ -9,10 +9,10 @@ use super::parts::SdfJoint;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::mjcf::{Files, NotRead};
-use crate::interchange::page::{
+use crate::interchange::problem::ImportProblemKind;
+use crate::interchange::xml_reader::{
     Problems, child, children, document, pose_of, tag, turned, version,
 };
-use crate::interchange::problem::ImportProblemKind;
 
 /// Models of light and floor.
 const SCENERY: [&str; 2] = ["://sun", "://ground_plane"];

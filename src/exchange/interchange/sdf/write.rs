@@ -8,12 +8,12 @@ use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::masses::{Heavy, MOMENTS};
 use crate::interchange::mjcf::with_sliders;
-use crate::interchange::page::along_z;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{
     Attachment, BodyMotion, Coupling, Tree, TreeBody, TreeJoint, TreeLoop,
 };
-use crate::interchange::xml::{Xml, numbers, vector};
+use crate::interchange::xml_reader::along_z;
+use crate::interchange::xml_writer::{Xml, numbers, vector};
 
 /// The plugin that drives a joint in Gazebo: the file and the name of the plugin.
 const CONTROLLER: [&dyn std::fmt::Display; 2] = [

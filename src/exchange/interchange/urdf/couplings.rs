@@ -2,8 +2,8 @@
 
 use roxmltree::Node;
 
-use crate::interchange::page::{Problems, child, children};
 use crate::interchange::tree::{Coupling, Tree};
+use crate::interchange::xml_reader::{Problems, child, children};
 
 /// True if an element of a robot is one.
 pub(super) fn is_coupling(node: Node) -> bool {

@@ -15,9 +15,9 @@ use roxmltree::Node;
 use super::motion::AXIS;
 use crate::description::{ClosureKind, GivenNames};
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{Problems, along_z, child, children, pose_of, tag};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Tree, TreeLoop};
+use crate::interchange::xml_reader::{Problems, along_z, child, children, pose_of, tag};
 
 /// The types of joints that can close a loop, in the words of the formats.
 const TYPES: [(&str, ClosureKind); 10] = [

@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use crate::description::first_free;
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{child, children, least_along};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{BodyMotion, TreeJoint};
+use crate::interchange::xml_reader::{child, children, least_along};
 use roxmltree::Node;
 
 /// The type of a joint.

@@ -15,10 +15,12 @@ use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
 use crate::description::unless;
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::masses::{Heavy, MOMENTS};
-use crate::interchange::page::{Problems, child, children, direction, document, turned, version};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{BodyMotion, Coupling, Tree, TreeBody};
+use crate::interchange::xml_reader::{
+    Problems, child, children, direction, document, turned, version,
+};
 
 /// A tree with remarks.
 pub(crate) type ReadTree = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;

@@ -5,7 +5,7 @@ use crate::geometry::{Pose, RollPitchYaw, Vector3};
 use crate::interchange::masses::Heavy;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{BodyMotion, Coupling, Tree, TreeBody, TreeJoint, TreeLoop};
-use crate::interchange::xml::{Xml, numbers, vector};
+use crate::interchange::xml_writer::{Xml, numbers, vector};
 
 /// The limit of a prismatic joint that has none, in units of the size of the mechanism.
 const FAR: f64 = 1000.0;

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::{Displacement, Entry, Named, Spanned};
 use crate::algebra::{Expression, words};
-use crate::description::structures::{declared, load_structures};
+use crate::description::file_fields::{declared, load_structures};
 
 load_structures!(declared);
 

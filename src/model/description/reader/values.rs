@@ -1,8 +1,8 @@
 //! Values of fields, and the structures made of them.
 
 use super::*;
+use crate::description::file_fields::{axes_structures, load_structures, part_structures};
 use crate::description::piece::{PieceShape, RawValue};
-use crate::description::structures::{axes_structures, load_structures, part_structures};
 
 /// Reading of structures.
 macro_rules! readable {

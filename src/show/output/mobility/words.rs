@@ -5,12 +5,12 @@ use crate::analysis::mobility::{
 };
 use crate::description::{count, listed};
 use crate::linear::{RANK_TOLERANCE, SPECTRUM_LIMIT};
-use crate::output::closing;
+use crate::output::assembly_remarks;
 use crate::output::quantity::{clause, coarse, form, if_any, metres, signed, triple, values};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
-    let answer = closing::after_moving(report.pose.moved.as_ref(), mobility(report));
+    let answer = assembly_remarks::after_moving(report.pose.moved.as_ref(), mobility(report));
     let mut sentences = vec![answer];
     sentences.extend(judged(report));
     sentences.push(counted(report));
@@ -37,7 +37,7 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
     }
     sentences.extend(locked(report));
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
-    sentences.extend(closing::given(&report.pose));
+    sentences.extend(assembly_remarks::given(&report.pose));
     sentences.join(" ")
 }
 

@@ -9,7 +9,7 @@ use linkwork::output::Rows;
 use linkwork::output::csv::Csv;
 
 use super::Refusal;
-use super::watched::{cuts_short, interruptions, read_no_more};
+use super::progress::{cuts_short, interruptions, read_no_more};
 
 /// Whole lines to stdout, as they come.
 pub struct StdoutLines {

@@ -12,9 +12,9 @@ use linkwork::output::complaint::{
 use linkwork::solve::Watch;
 use linkwork::system;
 
-use super::format::{Format, readable, with_rows};
+use super::progress::watched;
+use super::report_format::{Format, readable, with_rows};
 use super::source::{Assignment, LoadedFile, Source};
-use super::watched::watched;
 use super::words::{self, Options};
 use super::{Answer, Refusal, style};
 

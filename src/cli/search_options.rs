@@ -7,7 +7,7 @@ use clap::Args;
 use linkwork::analysis::assemblies::AssembliesSettings;
 
 use super::Refusal;
-use super::asked::Posed;
+use super::question_options::Posed;
 use super::store::FileStore;
 
 #[derive(Args)]

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use linkwork::output::{AnyReport, Document, JsonReport, Report, html, markdown, text};
 
-use super::written::rows;
+use super::output_files::rows;
 use super::{Answer, Refusal, lines};
 
 /// Format of an answer.
