@@ -32,6 +32,9 @@ pub use table::{DhTable, TableRow};
 
 use crate::geometry::{Line, Pose, Vector3};
 
+/// The largest angle, in rad, between nearly parallel axes.
+const NEARLY_PARALLEL: f64 = 1e-2;
+
 /// The axis of a joint in the home configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointAxis {

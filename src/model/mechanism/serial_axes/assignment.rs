@@ -1,5 +1,5 @@
 use super::prismatic;
-use super::{DhTable, JointAxis, SerialAxes, TableRow};
+use super::{DhTable, JointAxis, NEARLY_PARALLEL, SerialAxes, TableRow};
 use crate::description::Convention;
 use crate::geometry::{CommonNormal, Line, Pose, Relation, Rotation, Vector3};
 use crate::linear::RANK_TOLERANCE;
@@ -341,9 +341,6 @@ impl SerialAxes {
         (turned, moved)
     }
 }
-
-/// The largest angle, in rad, between nearly parallel axes.
-pub(super) const NEARLY_PARALLEL: f64 = 1e-2;
 
 /// A common normal is far away from where the axes are beyond so many times the size of the chain.
 const FAR: f64 = 10.0;

@@ -11,8 +11,7 @@
 //!
 //! Several prismatic joints in a row follow one another so that their offsets are zero.
 
-use super::SerialAxes;
-use super::assignment::NEARLY_PARALLEL;
+use super::{NEARLY_PARALLEL, SerialAxes};
 use crate::geometry::{Line, Vector3};
 
 /// Places the run of prismatic axes that begins with index `first`, if there is one. `near` is where
