@@ -6,12 +6,12 @@ use crate::geometry::Pose;
 use crate::number::{Number, real};
 
 /// The largest relative error when a number is written shorter.
-const ROUNDING: f64 = 4e-15;
+const SHORTENED: f64 = 4e-15;
 
 /// The number with at most twelve decimals that differs by no more than rounding, if there is one.
 fn short(value: f64) -> Option<f64> {
     let shortened = (value * 1e12).round() / 1e12;
-    let near = (shortened - value).abs() <= ROUNDING * value.abs().max(1.0);
+    let near = (shortened - value).abs() <= SHORTENED * value.abs().max(1.0);
     // a zero has no sign here
     near.then_some(shortened + 0.0)
 }
@@ -25,7 +25,7 @@ impl Entry {
     /// An angle in rad, written in degrees where that is shorter: `90 deg`.
     pub fn angle(radians: f64) -> Self {
         let degrees = short(radians.to_degrees())
-            .filter(|degrees| (degrees.to_radians() - radians).abs() <= ROUNDING)
+            .filter(|degrees| (degrees.to_radians() - radians).abs() <= SHORTENED)
             .filter(|degrees| degrees.to_string().len() <= 12);
         match degrees {
             Some(0.0) => Entry::number(0.0, 0..0),
@@ -63,7 +63,7 @@ impl Displacement {
             // the remainder is recomputed after each rotation, so that rounding does not accumulate
             left = Pose::rotation(axis, -angle) * left;
             let entry = Entry::angle(angle);
-            if !entry.expression.is_zero() && angle.abs() > ROUNDING {
+            if !entry.expression.is_zero() && angle.abs() > SHORTENED {
                 steps.push(Displacement::Rotate(axis, entry));
             }
             left.rotation.0
@@ -84,7 +84,7 @@ impl Displacement {
     /// A translation in m, without zero components.
     pub fn of_position(position: [f64; 3]) -> Vec<Displacement> {
         let entries = position.map(Entry::length);
-        let given = |i: &usize| !entries[*i].expression.is_zero() && position[*i].abs() > ROUNDING;
+        let given = |i: &usize| !entries[*i].expression.is_zero() && position[*i].abs() > SHORTENED;
         let parts: Vec<usize> = (0..3).filter(given).collect();
         match parts[..] {
             [] => Vec::new(),

@@ -11,10 +11,13 @@ use super::quantity::{form, quantity};
 use super::report::{Report, Rows};
 use crate::analysis::design::{Cognate, DesignReport, Deviation, Exact, FoundDesign, Goal, Moves};
 use crate::description::{count, quoted};
+use crate::number::tolerance::ROUNDING;
 use defects::{defects, missed};
 
-/// A sum of squares below this part of what was asked is met exactly.
-const MET: f64 = 1e-18;
+/// True if a design meets all targets but for rounding.
+fn meets(of: &FoundDesign) -> bool {
+    of.sum_of_squares < ROUNDING * ROUNDING
+}
 
 /// Designs in a table at most.
 const SHOWN: usize = 10;
@@ -160,7 +163,7 @@ fn answer(report: &DesignReport) -> String {
             None => format!("Nothing was found for {asked}."),
         };
     };
-    let met = match first.sum_of_squares < MET {
+    let met = match meets(first) {
         true => "meets all of them".to_owned(),
         false => format!(
             "misses them by at most {}, with a sum of squares of {}",
@@ -248,9 +251,8 @@ impl Report for DesignReport {
                 .numbers("deviation", |of| quantity(of.deviation, of.unit));
             document = document.table("Deviations of the first", table);
         }
-        let met = |of: &FoundDesign| of.sum_of_squares < MET;
         let first = self.designs.first();
-        if let Some(missing) = first.filter(|of| !met(of)) {
+        if let Some(missing) = first.filter(|of| !meets(of)) {
             let pairs = self.varied.iter().zip(&missing.values);
             let ends = pairs.filter(|(of, x)| of.from < of.to && (**x == of.from || **x == of.to));
             let ends: Vec<&str> = ends.map(|(of, _)| of.name.as_str()).collect();
@@ -270,7 +272,7 @@ impl Report for DesignReport {
                 cognate(other)
             ));
         }
-        if self.undetermined > 0 && !self.varied.is_empty() && first.is_some_and(met) {
+        if self.undetermined > 0 && !self.varied.is_empty() && first.is_some_and(meets) {
             document = document.note(format!(
                 "The targets leave {} of the numbers open: more positions would fit, and these designs are some of infinitely many.",
                 count(self.undetermined, "combination")

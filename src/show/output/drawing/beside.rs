@@ -129,13 +129,13 @@ fn force(
     shapes: &mut Vec<Shape>,
     named: &mut Vec<(String, Position)>,
 ) {
-    /// Parts of the largest that are not seen.
-    const SMALL: f64 = 1e-6;
+    /// A smaller part of the largest is not seen.
+    const UNSEEN: f64 = 1e-6;
     let colour = if arrow.applied { LOAD } else { REACTION };
     let at = Vector3(arrow.at);
     let force = Vector3(arrow.force);
     let size = force.norm();
-    if size > SMALL * largest[0] {
+    if size > UNSEEN * largest[0] {
         // the largest is 50 pixels long
         let step = force.times(50.0 / largest[0] / stage.fit.scale);
         let (tail, tip) = match arrow.applied {
@@ -149,7 +149,7 @@ fn force(
     }
     let moment = Vector3(arrow.moment);
     let size = moment.norm();
-    if size > SMALL * largest[1] {
+    if size > UNSEEN * largest[1] {
         let radius = (1.6 + 1.2 * size / largest[1]) * stage.metres();
         let (arc, place) = turning(stage, at, moment.times(1.0 / size), radius, colour);
         shapes.extend(arc);
