@@ -43,7 +43,7 @@ impl PairPaths<'_> {
     const STEPS: usize = 10_000;
     const ALL_STEPS: usize = 40_000;
 
-    /// True if cosines are so large that rounding may keep paths from being followed.
+    /// True if cosines are so large, 74 and more, that rounding may keep paths from being followed.
     pub fn is_far(&self, at: &Configuration<C>) -> bool {
         self.complex.depth(at) > 5.0
     }
