@@ -24,10 +24,12 @@
 //! leads (standard convention). The remainder goes to `base` and `tip`.
 
 mod assignment;
+mod normal;
 mod prismatic;
 mod table;
 
-pub use assignment::{FrameAssignment, Normal};
+pub use assignment::FrameAssignment;
+pub use normal::Normal;
 pub use table::{DhTable, TableRow};
 
 use crate::geometry::{Line, Pose, Vector3};
