@@ -156,7 +156,7 @@ impl Continuation {
         Err(StepFailure::NotClosed)
     }
 
-    /// A place from which steps can be made, although it may have been [thinned](Place::thinned).
+    /// A place from which steps can be made, although it may have been [thinned](CurvePoint::thinned).
     pub fn restored<C: SolutionCurve>(
         &self,
         curve: &mut C,
