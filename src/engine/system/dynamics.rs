@@ -1,7 +1,10 @@
 //! Motion of a mechanism under its loads, in independent coordinates.
 
+mod accelerated;
 mod chart;
 mod closing;
+
+pub use accelerated::{Accelerated, NoDynamics};
 
 use super::{Coordinate, Freedoms, Instant, Load, Motion, Still, System};
 use crate::linear::{add, dot, norm};
@@ -34,36 +37,6 @@ pub struct Dynamics<'a> {
     base: Base,
     /// Rates of the independent coordinates as last evaluated, and the accelerations of all unknowns while these stay.
     latest: (Vec<f64>, Vec<f64>),
-}
-
-/// Forces, inertia and energies at an instant.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Accelerated {
-    /// Second derivatives of the independent coordinates, in m/s² and rad/s².
-    pub accelerations: Vec<f64>,
-    /// The power of what acts, inertia included, for a unit rate of each with no acceleration of these, in N and N·m.
-    pub forces: Vec<f64>,
-    /// The mass matrix, row by row, in kg, kg·m and kg·m².
-    pub mass: Vec<f64>,
-    /// Kinetic energy, in J.
-    pub kinetic: f64,
-    /// Potential energy of weights and springs, in J.
-    pub potential: f64,
-    /// The power of given forces and drives less that of dampers, in W.
-    pub supplied: f64,
-    /// The forces of what drives coordinates, in N and N·m.
-    pub drives: Vec<f64>,
-}
-
-/// Reasons for which a mechanism has no equations of motion at a configuration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoDynamics {
-    /// It has more freedoms there than nearby: branches of motion meet.
-    Singular,
-    /// No coordinates determine it.
-    NoCoordinates,
-    /// A force has no value.
-    NoForce,
 }
 
 /// Corrections of accelerations for friction.
